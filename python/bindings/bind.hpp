@@ -1,0 +1,13 @@
+#pragma once
+// One function per file: each adds one concept's classes and functions to the module.
+
+#include <pybind11/pybind11.h>
+
+namespace dmp::python {
+
+void bind_so3(pybind11::module_& m);
+void bind_demonstration(pybind11::module_& m);
+void bind_dmp(pybind11::module_& m);
+void bind_kinematics(pybind11::module_& m);
+
+}  // namespace dmp::python
