@@ -5,10 +5,18 @@ set(DMP_core_SOURCES
   dmp.cpp
   file.cpp
   forcing.cpp
+  options.cpp
   orientation_dmp.cpp
+  phase.cpp
   pose_dmp.cpp
   so3.cpp
-  spline.cpp)
+  spline.cpp
+  detail/forcing_scale.cpp
+  detail/learning.cpp
+  detail/model_json.cpp
+  detail/orientation_motion.cpp
+  detail/position_motion.cpp
+  detail/spring_damper.cpp)
 set(DMP_kinematics_SOURCES
   arm.cpp
   inverse_kinematics.cpp

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <dmp/export.hpp>
+#include <dmp/realtime.hpp>
+#include <dmp/trajectory.hpp>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace dmp {
+
+/// Gaussian kernels over the phase. Kernel i stands at s_i = i / (N - 1), c_i = exp(-alpha_x s_i).
+///
+/// * Equal in time: psi_i = exp(-overlap ((s - s_i)(N - 1))^2), Gaussians in s = -ln(x) / alpha_x. They all have
+///   one width in time, so only the kernels around s are not zero (below 1e-17 they count as zero), and they are
+///   all found with one exponential: psi_{k+1} / psi_k is a table times a power.
+/// * Source: psi_i = exp(-h_i (x - c_i)^2), h_i = N^1.5 / (alpha_x c_i), Gaussians in x (DeWolf's rule).
+class DMP_EXPORT GaussianBasis {
+ public:
+  /// Kernels first .. first + count - 1; the others are zero.
+  struct Window {
+    int first;
+    int count;
+  };
+
+  /// Throws InvalidArgument unless count >= 1, alpha_x > 0 and overlap > 0. Neighbours cross at exp(-overlap / 4).
+  static GaussianBasis equal_in_time(int count, double alpha_x, double overlap);
+  static GaussianBasis source(int count, double alpha_x);
+
+  int count() const noexcept { return count_; }
+  double alpha_x() const noexcept { return alpha_x_; }
+  /// (N) centers c_i in x.
+  Eigen::VectorXd centers() const;
+  /// The most kernels that a window can hold.
+  int window_capacity() const noexcept { return capacity_; }
+
+  /// psi up to a common factor, one of them about 1: what a normalised sum needs. `psi` has window_capacity() places.
+  Window proportional(double s, double* psi) const noexcept DMP_REALTIME;
+  /// psi itself: the weights of locally weighted regression.
+  Window activations(double s, double* psi) const noexcept DMP_REALTIME;
+  /// (T x N) psi at each phase s; each row divided by its sum if `normalised`.
+  RowMatrix activations(const Eigen::VectorXd& s, bool normalised = false) const;
+
+ private:
+  GaussianBasis(int count, double alpha_x);
+  int nearest(double s) const noexcept;
+  Window equal_in_time_window(double s, double* psi) const noexcept;
+  Window source_window(double s, double* psi, bool proportional) const noexcept;
+
+  int count_;
+  double alpha_x_;
+  double overlap_ = 0.0;        // 0: the source's kernels
+  int reach_ = 0;               // kernels to either side that count
+  int capacity_ = 0;
+  std::vector<double> table_;   // exp(-overlap k^2), k = 0 .. reach
+  std::vector<double> center_;  // the source's c_i
+  std::vector<double> width_;   // the source's h_i
+};
+
+}  // namespace dmp

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <dmp/export.hpp>
+#include <dmp/spline.hpp>
+#include <dmp/trajectory.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace dmp {
+
+/// Positions over time as they were recorded, in any number of dimensions, with the derivatives of the
+/// interpolating quintic spline. Times count from the first sample.
+class DMP_EXPORT Demonstration {
+ public:
+  /// times (T) s, strictly increasing, uniform or not; positions (T x dims), T >= 2.
+  /// Throws InvalidArgument, naming the sample, for wrong sizes, numbers that are not finite, time that stands still
+  /// or runs backwards.
+  Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions);
+
+  Eigen::Index size() const noexcept { return time_.size(); }
+  Eigen::Index dimension() const noexcept { return position_.cols(); }
+  double duration() const noexcept { return time_[size() - 1]; }  ///< s
+  const Eigen::VectorXd& time() const noexcept { return time_; }  ///< (T) s, from 0
+  const RowMatrix& position() const noexcept { return position_; }
+
+  /// Position, velocity and acceleration on the spline at times (n) in s from the start.
+  Trajectory at(const Eigen::VectorXd& times) const;
+
+ private:
+  Eigen::VectorXd time_;
+  RowMatrix position_;
+  Spline spline_;
+};
+
+/// Orientations over time, with the angular velocities and accelerations (world frame) of the quintic spline through
+/// the sign-continuous quaternions. Total rotations beyond 2 pi are fine.
+class DMP_EXPORT OrientationDemonstration {
+ public:
+  /// times (T) s as above; rotations (T) body -> world. Throws InvalidArgument, naming the sample, for a matrix that
+  /// is no rotation (a reflection, not orthogonal to 1e-3) and for two samples more than pi/2 apart, between which
+  /// the way is not known.
+  OrientationDemonstration(const Eigen::VectorXd& times, const Rotations& rotations);
+  /// angles (T x 3) rad; `convention` as in so3::from_euler.
+  static OrientationDemonstration from_euler(const Eigen::VectorXd& times, const RowMatrix& angles,
+                                             const std::string& convention);
+
+  Eigen::Index size() const noexcept { return time_.size(); }
+  double duration() const noexcept { return time_[size() - 1]; }  ///< s
+  const Eigen::VectorXd& time() const noexcept { return time_; }  ///< (T) s, from 0
+  const Rotations& rotation() const noexcept { return rotation_; }
+
+  /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start.
+  OrientationTrajectory at(const Eigen::VectorXd& times) const;
+
+ private:
+  Eigen::VectorXd time_;
+  Rotations rotation_;
+  Spline spline_;
+};
+
+/// Positions and orientations of one body, at the same times.
+class DMP_EXPORT PoseDemonstration {
+ public:
+  /// times (T) s; poses (T) [R p; 0 1], body -> world, p in m. Throws InvalidArgument as the two above.
+  PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses);
+
+  Eigen::Index size() const noexcept { return position_.size(); }
+  double duration() const noexcept { return position_.duration(); }            ///< s
+  const Eigen::VectorXd& time() const noexcept { return position_.time(); }    ///< (T) s, from 0
+  Poses pose() const;                                                          ///< (T)
+  const Demonstration& position() const noexcept { return position_; }
+  const OrientationDemonstration& orientation() const noexcept { return orientation_; }
+
+ private:
+  Demonstration position_;
+  OrientationDemonstration orientation_;
+};
+
+/// [R p; 0 1]
+DMP_EXPORT Eigen::Matrix4d pose_of(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position) noexcept;
+
+}  // namespace dmp

@@ -1,0 +1,159 @@
+#include <dmp/demonstration.hpp>
+#include <dmp/error.hpp>
+#include <dmp/so3.hpp>
+
+#include <cmath>
+
+#include "detail/text.hpp"
+
+namespace dmp {
+namespace {
+
+using detail::indexed;
+using detail::number;
+using Eigen::Index;
+using Eigen::Quaterniond;
+
+void require_times(const Eigen::VectorXd& times, Index count, const std::string& what) {
+  if (times.size() != count)
+    throw InvalidArgument("times: " + std::to_string(times.size()) + " of them, expected one for each of the " +
+                          std::to_string(count) + " " + what + ".");
+  if (count < 2)
+    throw InvalidArgument(what + ": " + std::to_string(count) + " samples, expected at least 2 (a start and a goal).");
+  for (Index k = 0; k < count; ++k) {
+    if (!std::isfinite(times[k]))
+      throw InvalidArgument(indexed("times", k) + ": " + number(times[k]) + ", expected a finite time in s.");
+    if (k > 0 && !(times[k] > times[k - 1]))
+      throw InvalidArgument(indexed("times", k) + ": " + number(times[k]) + " s after " + number(times[k - 1]) +
+                            " s, expected strictly increasing times. Remove or merge the repeated samples.");
+  }
+}
+
+/// Checked times, from 0.
+Eigen::VectorXd from_zero(const Eigen::VectorXd& times, Index count, const std::string& what) {
+  require_times(times, count, what);
+  return times.array() - times[0];
+}
+
+RowMatrix checked(const RowMatrix& positions) {
+  if (positions.cols() == 0) throw InvalidArgument("positions: no columns, expected at least one dimension.");
+  for (Index k = 0; k < positions.rows(); ++k)
+    for (Index d = 0; d < positions.cols(); ++d)
+      if (!std::isfinite(positions(k, d)))
+        throw InvalidArgument("positions[" + std::to_string(k) + ", " + std::to_string(d) + "]: " +
+                              number(positions(k, d)) + ", expected a finite number. Remove or fill the gap.");
+  return positions;
+}
+
+Rotations checked(const Rotations& rotations) {
+  Rotations result = rotations;
+  for (std::size_t k = 0; k < rotations.size(); ++k) {
+    so3::require_rotation(rotations[k], indexed("rotations", static_cast<long>(k)));
+    result[k] = Quaterniond(rotations[k]).normalized().toRotationMatrix();
+    if (k == 0) continue;
+    const double angle = so3::distance(result[k], result[k - 1]);
+    if (angle > M_PI / 2)
+      throw InvalidArgument(indexed("rotations", static_cast<long>(k)) + ": " + number(angle * 180 / M_PI) +
+                            " deg from the sample before, expected at most 90. Sample faster, or remove the jump.");
+  }
+  return result;
+}
+
+/// (T x 4) w, x, y, z; neighbours on one hemisphere.
+RowMatrix continuous_quaternions(const Rotations& rotations) {
+  RowMatrix table(static_cast<Index>(rotations.size()), 4);
+  for (Index k = 0; k < table.rows(); ++k) {
+    const Quaterniond q(rotations[static_cast<std::size_t>(k)]);
+    table.row(k) << q.w(), q.x(), q.y(), q.z();
+    if (k > 0 && table.row(k).dot(table.row(k - 1)) < 0.0) table.row(k) *= -1.0;
+  }
+  return table;
+}
+
+Quaterniond quaternion(const RowMatrix& table, Index k) {
+  return {table(k, 0), table(k, 1), table(k, 2), table(k, 3)};
+}
+
+RowMatrix positions_of(const Poses& poses) {
+  RowMatrix positions(static_cast<Index>(poses.size()), 3);
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    positions.row(static_cast<Index>(k)) = poses[k].topRightCorner<3, 1>().transpose();
+  return positions;
+}
+
+Rotations rotations_of(const Poses& poses) {
+  Rotations rotations;
+  rotations.reserve(poses.size());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const Eigen::RowVector4d last = poses[k].row(3);
+    if ((last - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-9 || !last.allFinite())
+      throw InvalidArgument(indexed("poses", static_cast<long>(k)) + ": its last row is not 0 0 0 1. Check the layout: [R p; 0 1].");
+    rotations.push_back(poses[k].topLeftCorner<3, 3>());
+  }
+  return rotations;
+}
+
+}  // namespace
+
+Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions)
+    : time_(from_zero(times, positions.rows(), "positions")), position_(checked(positions)), spline_(time_, position_) {}
+
+Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
+  Spline::Samples samples = spline_.sample(times);
+  return {times, std::move(samples.value), std::move(samples.first), std::move(samples.second)};
+}
+
+OrientationDemonstration::OrientationDemonstration(const Eigen::VectorXd& times, const Rotations& rotations)
+    : time_(from_zero(times, static_cast<Index>(rotations.size()), "rotations")),
+      rotation_(checked(rotations)),
+      spline_(time_, continuous_quaternions(rotation_)) {}
+
+OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::VectorXd& times, const RowMatrix& angles,
+                                                              const std::string& convention) {
+  if (angles.cols() != 3)
+    throw InvalidArgument("angles: " + std::to_string(angles.cols()) + " columns, expected 3 (rad).");
+  Rotations rotations;
+  for (Index k = 0; k < angles.rows(); ++k) {
+    if (!angles.row(k).allFinite())
+      throw InvalidArgument(indexed("angles", k) + ": not finite, expected three angles in rad.");
+    rotations.push_back(so3::from_euler(angles.row(k).transpose(), convention));
+  }
+  return {times, rotations};
+}
+
+OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times) const {
+  const Spline::Samples samples = spline_.sample(times);
+  OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
+  result.rotation.reserve(static_cast<std::size_t>(times.size()));
+  for (Index k = 0; k < times.size(); ++k) {
+    // q = rho u with |u| = 1: rho cancels in the vector parts of qd q^-1 and qdd q^-1 - (qd q^-1)^2.
+    const Quaterniond q = quaternion(samples.value, k);
+    const Quaterniond inverse(q.conjugate().coeffs() / q.squaredNorm());
+    const Quaterniond rate = quaternion(samples.first, k) * inverse;
+    const Quaterniond change = quaternion(samples.second, k) * inverse;
+    result.rotation.push_back(q.normalized().toRotationMatrix());
+    result.angular_velocity.row(k) = 2.0 * rate.vec().transpose();
+    result.angular_acceleration.row(k) = 2.0 * (change.vec() - (rate * rate).vec()).transpose();
+  }
+  return result;
+}
+
+PoseDemonstration::PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses)
+    : position_(times, positions_of(poses)), orientation_(times, rotations_of(poses)) {}
+
+Poses PoseDemonstration::pose() const {
+  Poses poses;
+  poses.reserve(static_cast<std::size_t>(size()));
+  for (Index k = 0; k < size(); ++k)
+    poses.push_back(pose_of(orientation_.rotation()[static_cast<std::size_t>(k)], position_.position().row(k)));
+  return poses;
+}
+
+Eigen::Matrix4d pose_of(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position) noexcept {
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topLeftCorner<3, 3>() = rotation;
+  pose.topRightCorner<3, 1>() = position;
+  return pose;
+}
+
+}  // namespace dmp

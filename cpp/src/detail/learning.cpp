@@ -1,0 +1,198 @@
+#include "detail/learning.hpp"
+
+#include <dmp/error.hpp>
+#include <dmp/so3.hpp>
+#include <dmp/spline.hpp>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <string>
+
+#include "detail/forcing_scale.hpp"
+#include "detail/text.hpp"
+
+namespace dmp::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+void require_positive(double value, const char* name) {
+  if (!(std::isfinite(value) && value > 0.0))
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected a positive number.");
+}
+
+void require_not_negative(double value, const char* name) {
+  if (!(std::isfinite(value) && value >= 0.0))
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected 0 or a positive number.");
+}
+
+VectorXd range(const RowMatrix& values) { return values.colwise().maxCoeff() - values.colwise().minCoeff(); }
+
+/// Second-order differences: central inside, one-sided at the ends; any grid.
+RowMatrix gradient(const VectorXd& t, const RowMatrix& y) {
+  const Index n = t.size();
+  RowMatrix rate(n, y.cols());
+  rate.row(0) = (y.row(1) - y.row(0)) / (t[1] - t[0]);
+  rate.row(n - 1) = (y.row(n - 1) - y.row(n - 2)) / (t[n - 1] - t[n - 2]);
+  for (Index k = 1; k + 1 < n; ++k) {
+    const double before = t[k] - t[k - 1];
+    const double after = t[k + 1] - t[k];
+    rate.row(k) = (before / after * (y.row(k + 1) - y.row(k)) + after / before * (y.row(k) - y.row(k - 1))) / (before + after);
+  }
+  return rate;
+}
+
+Trajectory looked_at(const Demonstration& demonstration, const DmpOptions& options) {
+  if (options.derivatives == Derivatives::interpolate)
+    return demonstration.at(fit_times(demonstration.time(), options));
+  const VectorXd& time = demonstration.time();
+  const RowMatrix velocity = gradient(time, demonstration.position());
+  return {time, demonstration.position(), velocity, gradient(time, velocity)};
+}
+
+RowMatrix difference_velocity(const VectorXd& t, const Rotations& r) {
+  const Index n = t.size();
+  RowMatrix omega(n, 3);
+  for (Index k = 0; k < n; ++k) {
+    const Index before = std::max<Index>(k - 1, 0);
+    const Index after = std::min<Index>(k + 1, n - 1);
+    omega.row(k) = so3::log(Eigen::Matrix3d(r[after] * r[before].transpose())).transpose() / (t[after] - t[before]);
+  }
+  return omega;
+}
+
+OrientationTrajectory looked_at(const OrientationDemonstration& demonstration, const DmpOptions& options) {
+  if (options.derivatives == Derivatives::interpolate)
+    return demonstration.at(fit_times(demonstration.time(), options));
+  const VectorXd& time = demonstration.time();
+  const RowMatrix omega = difference_velocity(time, demonstration.rotation());
+  return {time, demonstration.rotation(), omega, gradient(time, omega)};
+}
+
+/// e_k = Log(Rg R_k^T), the branch followed backward from e = 0 at the end.
+RowMatrix errors_to_goal(const Rotations& rotations, LogBranch branch) {
+  const Index n = static_cast<Index>(rotations.size());
+  RowMatrix errors(n, 3);
+  const Eigen::Quaterniond goal(rotations.back());
+  Vector3d later = Vector3d::Zero();
+  for (Index k = n - 1; k >= 0; --k) {
+    const Eigen::Quaterniond turn = goal * Eigen::Quaterniond(rotations[k]).conjugate();
+    later = branch == LogBranch::lifted ? so3::lifted_log(turn, later) : so3::log(turn);
+    errors.row(k) = later.transpose();
+  }
+  return errors;
+}
+
+/// tau^2 acceleration - alpha (beta error - tau velocity)
+RowMatrix forcing_of(double tau, double alpha, double beta, const RowMatrix& acceleration, const RowMatrix& error,
+                     const RowMatrix& velocity) {
+  return tau * tau * acceleration - alpha * (beta * error - tau * velocity);
+}
+
+RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatrix& errors, double tau,
+                              const DmpOptions& options) {
+  const double alpha = *options.orientation_alpha;
+  const double beta = *options.orientation_beta;
+  if (options.orientation_form == OrientationForm::ude)
+    return forcing_of(tau, alpha, beta, motion.angular_acceleration, errors, motion.angular_velocity);
+  const Spline::Samples p = Spline(motion.time, -errors).sample(motion.time);
+  return forcing_of(tau, alpha, beta, p.second, errors, p.first);
+}
+
+}  // namespace
+
+DmpOptions resolved(const DmpOptions& options) {
+  DmpOptions result = options;
+  if (options.basis_count < 1 || options.basis_count > 100000)
+    throw InvalidArgument("options.basis_count: " + std::to_string(options.basis_count) + ", expected 1 to 100000 kernels.");
+  if (options.passes < 1 || options.passes > 10000)
+    throw InvalidArgument("options.passes: " + std::to_string(options.passes) + ", expected 1 to 10000.");
+  result.beta = options.beta.value_or(options.alpha / 4.0);
+  result.orientation_alpha = options.orientation_alpha.value_or(options.alpha);
+  result.orientation_beta =
+      options.orientation_beta.value_or(options.orientation_alpha ? *options.orientation_alpha / 4.0 : *result.beta);
+  result.overlap = options.overlap.value_or(options.regression == Regression::lwr ? std::log(2.0) : 0.2);
+  require_positive(result.alpha, "alpha");
+  require_positive(*result.beta, "beta");
+  require_positive(*result.orientation_alpha, "orientation_alpha");
+  require_positive(*result.orientation_beta, "orientation_beta");
+  require_positive(result.alpha_x, "alpha_x");
+  require_positive(*result.overlap, "overlap");
+  require_not_negative(result.ridge, "ridge");
+  require_not_negative(result.goal_filter, "goal_filter");
+  require_not_negative(result.duration_filter, "duration_filter");
+  return result;
+}
+
+GaussianBasis basis_of(const DmpOptions& options) {
+  if (options.kernels == Kernels::source) return GaussianBasis::source(options.basis_count, options.alpha_x);
+  return GaussianBasis::equal_in_time(options.basis_count, options.alpha_x, *options.overlap);
+}
+
+VectorXd fit_times(const VectorXd& time, const DmpOptions& options) {
+  const Index wanted = 10 * static_cast<Index>(options.basis_count) + 1;
+  if (options.derivatives == Derivatives::gradient || time.size() >= wanted - 1) return time;
+  return VectorXd::LinSpaced(wanted, 0.0, time[time.size() - 1]);
+}
+
+PositionLesson lesson_of(const Demonstration& demonstration, const DmpOptions& options) {
+  const Trajectory motion = looked_at(demonstration, options);
+  const double tau = demonstration.duration();
+  PositionLesson lesson;
+  lesson.start = demonstration.position().row(0);
+  lesson.goal = demonstration.position().row(demonstration.size() - 1);
+  lesson.start_z = tau * motion.velocity.row(0);
+  if (options.start == Start::rest) lesson.start_z.setZero();
+  lesson.amplitude = range(demonstration.position());
+  const RowMatrix to_goal = lesson.goal.transpose().replicate(motion.position.rows(), 1) - motion.position;
+  lesson.target = {motion.time / tau, forcing_of(tau, options.alpha, *options.beta, motion.acceleration, to_goal, motion.velocity),
+                   VectorXd::Ones(lesson.start.size())};
+  return lesson;
+}
+
+OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const DmpOptions& options) {
+  const OrientationTrajectory motion = looked_at(demonstration, options);
+  const double tau = demonstration.duration();
+  const RowMatrix errors = errors_to_goal(motion.rotation, options.log_branch);
+  OrientationLesson lesson;
+  lesson.start = demonstration.rotation().front();
+  lesson.goal = demonstration.rotation().back();
+  lesson.start_eta = tau * motion.angular_velocity.row(0);
+  if (options.start == Start::rest) lesson.start_eta.setZero();
+  lesson.start_error = errors.row(0);
+  lesson.amplitude = range(errors);
+  lesson.target = {motion.time / tau, orientation_forcing(motion, errors, tau, options), Vector3d::Ones()};
+  return lesson;
+}
+
+void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacement, const VectorXd& reference,
+                   const VectorXd& amplitude, const DmpOptions& options) {
+  if (options.scaling == Scaling::none) return;
+  const Index axes = displacement.size();
+  if (options.scaling != Scaling::rotation_dilation) {
+    ForcingScale scale(options.scaling, reference, amplitude);
+    scale.set(displacement);
+    scale.apply(target.scale.segment(first, axes).data());
+    return;
+  }
+  // target = c R f: turned back by R^T (the rotation of the inverse way), scaled by c on every axis.
+  ForcingScale back(Scaling::rotation_dilation, displacement, amplitude);
+  back.set(reference);
+  if (displacement.norm() <= 1e-3 * amplitude.norm() || reference.norm() <= 1e-3 * amplitude.norm()) return;
+  const double dilation = displacement.norm() / reference.norm();
+  for (Index k = 0; k < target.value.rows(); ++k) back.apply(target.value.row(k).data() + first);
+  target.value.middleCols(first, axes) *= dilation;  // back.apply divided by it
+  target.scale.segment(first, axes).setConstant(dilation);
+}
+
+Eigen::Matrix3d mean_rotation(const Rotations& rotations) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3d& rotation : rotations) sum += rotation;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+}  // namespace dmp::detail

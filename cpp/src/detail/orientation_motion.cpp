@@ -1,0 +1,183 @@
+#include "detail/orientation_motion.hpp"
+
+#include <dmp/so3.hpp>
+
+#include <cmath>
+
+namespace dmp::detail {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+double alpha_of(const DmpOptions& options) { return *options.orientation_alpha; }
+
+/// J_l(u)^-1 v up to the order that a fourth-order step needs; u is the turn within the step.
+Vector3d small_inverse_jacobian(const Vector3d& u, const Vector3d& v) noexcept {
+  const Vector3d uv = u.cross(v);
+  return v - 0.5 * uv + u.cross(uv) / 12.0;
+}
+
+/// Back to length 1 to first order: the steps leave it by rounding only.
+void renormalise(Quaterniond& q) noexcept { q.coeffs() *= 1.5 - 0.5 * q.squaredNorm(); }
+
+}  // namespace
+
+OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start, const Eigen::Matrix3d& goal,
+                                     const Vector3d& start_error, const Vector3d& eta, const Vector3d& amplitude)
+    : integrator_(options.integrator),
+      form_(options.orientation_form),
+      branch_(options.log_branch),
+      unscaled_(options.scaling == Scaling::none),
+      goal_filter_(options.goal_filter),
+      spring_(alpha_of(options), *options.orientation_beta),
+      scale_(options.scaling, start_error, amplitude),
+      model_error_(start_error),
+      q_(start),
+      eta_(eta),
+      e_(start_error),
+      goal_(goal),
+      target_(goal),
+      start_(q_),
+      rotation_(q_) {
+  scale_.set(e_);
+}
+
+Vector3d OrientationMotion::error(const Quaterniond& goal, const Quaterniond& q) const noexcept {
+  const Quaterniond turn = goal * q.conjugate();
+  return branch_ == LogBranch::lifted ? so3::lifted_log(turn, e_) : so3::log(turn);
+}
+
+void OrientationMotion::begin(const Quaterniond& rotation, const Vector3d& eta) noexcept {
+  start_ = rotation;
+  q_ = rotation;
+  eta_ = eta;
+  e_ = model_error_;  // the branch to start on
+  jump_to_goal();
+  scale_.set(e_);
+}
+
+void OrientationMotion::set_goal(const Quaterniond& goal) noexcept {
+  target_ = goal;
+  settled_ = false;
+  if (goal_filter_ == 0.0) jump_to_goal();
+  if (unscaled_) return;
+  const Quaterniond turn = target_ * start_.conjugate();
+  scale_.set(branch_ == LogBranch::lifted ? so3::lifted_log(turn, model_error_) : so3::log(turn));
+}
+
+void OrientationMotion::start_with_goal(const Quaterniond& goal) noexcept {
+  set_goal(goal);
+  jump_to_goal();
+}
+
+void OrientationMotion::jump_to_goal() noexcept {
+  goal_ = target_;
+  settled_ = true;
+  e_ = error(goal_, q_);
+}
+
+const double* OrientationMotion::scaled(const double* forcing, int node) noexcept {
+  if (unscaled_) return forcing;
+  double* const row = scratch_.row(node).data();
+  for (int d = 0; d < 3; ++d) row[d] = forcing[d];
+  scale_.apply(row);
+  return row;
+}
+
+Quaterniond OrientationMotion::filtered_goal(double piece) const noexcept {
+  const Vector3d way = so3::log(Quaterniond(target_ * goal_.conjugate()));
+  return so3::exp_quaternion((1.0 - std::exp(-goal_filter_ * piece)) * way) * goal_;
+}
+
+Vector3d OrientationMotion::acceleration(const Vector3d& e, const Vector3d& eta, const double* f) const noexcept {
+  return spring_.stiffness() * e - spring_.alpha() * eta + Vector3d(f[0], f[1], f[2]);
+}
+
+void OrientationMotion::advance(double step, const ForcingNodes& forcing) noexcept {
+  const double* end = scaled(forcing.end, 2);
+  if (integrator_ == Integrator::semi_implicit_euler) {
+    advance_euler(step, end);
+  } else if (form_ == OrientationForm::log_linear) {
+    advance_log_linear(step, scaled(forcing.start, 0), scaled(forcing.middle, 1), end);
+  } else {
+    advance_ude(step, scaled(forcing.start, 0), scaled(forcing.middle, 1), end);
+  }
+  renormalise(q_);
+  // Nearer than rounding tells: the filter has arrived.
+  if (!settled_ && (target_ * goal_.conjugate()).vec().norm() < 1e-15) jump_to_goal();
+}
+
+/// The Runge-Kutta-Munthe-Kaas method of fourth order: R = Exp(u) R_n with ud = J_l(u)^-1 eta, so that R stays on
+/// SO(3) (Munthe-Kaas 1998, BIT 38).
+void OrientationMotion::advance_ude(double step, const double* start, const double* middle, const double* end) noexcept {
+  const double half = 0.5 * step;
+  const Quaterniond goal_middle = settled_ ? goal_ : filtered_goal(half);
+  const Quaterniond goal_end = settled_ ? goal_ : filtered_goal(step);
+
+  const Vector3d v1 = eta_;
+  const Vector3d a1 = acceleration(e_, eta_, start);
+
+  const Vector3d u2 = half * v1;
+  const Vector3d eta2 = eta_ + half * a1;
+  const Vector3d v2 = small_inverse_jacobian(u2, eta2);
+  const Vector3d a2 = acceleration(error(goal_middle, so3::exp_quaternion(u2) * q_), eta2, middle);
+
+  const Vector3d u3 = half * v2;
+  const Vector3d eta3 = eta_ + half * a2;
+  const Vector3d v3 = small_inverse_jacobian(u3, eta3);
+  const Vector3d a3 = acceleration(error(goal_middle, so3::exp_quaternion(u3) * q_), eta3, middle);
+
+  const Vector3d u4 = step * v3;
+  const Vector3d eta4 = eta_ + step * a3;
+  const Vector3d v4 = small_inverse_jacobian(u4, eta4);
+  const Vector3d a4 = acceleration(error(goal_end, so3::exp_quaternion(u4) * q_), eta4, end);
+
+  q_ = so3::exp_quaternion(step / 6.0 * (v1 + 2.0 * (v2 + v3) + v4)) * q_;
+  eta_ += step / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+  goal_ = goal_end;
+  e_ = error(goal_, q_);
+}
+
+/// p = -e obeys the linear equation of positions with the goal 0, which has an exact step.
+void OrientationMotion::advance_log_linear(double step, const double* start, const double* middle,
+                                           const double* end) noexcept {
+  if (!settled_) {  // the goal stands still within a step; R and omega do not jump
+    goal_ = filtered_goal(step);
+    e_ = error(goal_, q_);
+  }
+  spring_.prepare(step);
+  Vector3d p = -e_;
+  Vector3d z = so3::left_jacobian_inverse(p) * eta_;
+  for (int d = 0; d < 3; ++d) spring_.advance(p[d], z[d], start[d], middle[d], end[d]);
+  q_ = so3::exp_quaternion(p) * goal_;
+  eta_ = so3::left_jacobian(p) * z;
+  e_ = -p;
+}
+
+void OrientationMotion::advance_euler(double step, const double* end) noexcept {
+  if (!settled_) goal_ = filtered_goal(step);
+  e_ = error(goal_, q_);
+  eta_ += step * acceleration(e_, eta_, end);
+  q_ = so3::exp_quaternion(step * eta_) * q_;
+  e_ = error(goal_, q_);
+}
+
+void OrientationMotion::publish(double tau, double tau_rate, const double* forcing) noexcept {
+  rotation_ = q_;
+  velocity_ = eta_ / tau;
+  Vector3d change = acceleration(e_, eta_, scaled(forcing, 3));
+  if (form_ == OrientationForm::log_linear) {
+    // omega' = J_l z' + J_l' z, the second by a difference quotient along p' = z
+    const Vector3d p = -e_;
+    const Vector3d z = so3::left_jacobian_inverse(p) * eta_;
+    const double* f = scaled(forcing, 3);
+    const Vector3d zs = -spring_.stiffness() * p - spring_.alpha() * z + Vector3d(f[0], f[1], f[2]);
+    constexpr double h = 1e-5;
+    const Vector3d turning = (so3::left_jacobian(p + h * z) - so3::left_jacobian(p - h * z)) * z / (2.0 * h);
+    change = so3::left_jacobian(p) * zs + turning;
+  }
+  acceleration_ = (change - eta_ * tau_rate) / (tau * tau);
+}
+
+}  // namespace dmp::detail

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <dmp/options.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "detail/forcing_scale.hpp"
+#include "detail/position_motion.hpp"
+#include "detail/spring_damper.hpp"
+
+namespace dmp::detail {
+
+/// The transformation system of orientations: its state (R, eta = tau omega, e = Log(Rg R^T) on its branch) and how it
+/// moves over a step of the phase.
+class OrientationMotion {
+ public:
+  /// start_error: Log(Rg R0^T) of the demonstration, on its branch; eta = tau omega at the start.
+  OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start, const Eigen::Matrix3d& goal,
+                    const Eigen::Vector3d& start_error, const Eigen::Vector3d& eta, const Eigen::Vector3d& amplitude);
+
+  void begin(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
+  void set_goal(const Eigen::Quaterniond& goal) noexcept;
+  /// Before the first step: the goal at once, without the filter.
+  void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
+
+  void advance(double step, const ForcingNodes& forcing) noexcept;
+  bool finite() const noexcept { return q_.coeffs().allFinite() && eta_.allFinite(); }
+  void publish(double tau, double tau_rate, const double* forcing) noexcept;
+
+  const Eigen::Quaterniond& rotation() const noexcept { return rotation_; }
+  const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
+  const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
+  const Eigen::Quaterniond& goal() const noexcept { return target_; }
+
+ private:
+  void jump_to_goal() noexcept;
+  void advance_ude(double step, const double* start, const double* middle, const double* end) noexcept;
+  void advance_log_linear(double step, const double* start, const double* middle, const double* end) noexcept;
+  void advance_euler(double step, const double* end) noexcept;
+  /// Log(goal q^-1), on the branch nearest to e unless the principal one is wanted.
+  Eigen::Vector3d error(const Eigen::Quaterniond& goal, const Eigen::Quaterniond& q) const noexcept;
+  /// eta' = alpha (beta e - eta) + f
+  Eigen::Vector3d acceleration(const Eigen::Vector3d& e, const Eigen::Vector3d& eta, const double* f) const noexcept;
+  /// The goal after another piece of the phase: Exp((1 - exp(-alpha_g piece)) Log(R* Rg^T)) Rg.
+  Eigen::Quaterniond filtered_goal(double piece) const noexcept;
+  const double* scaled(const double* forcing, int node) noexcept;
+
+  Integrator integrator_;
+  OrientationForm form_;
+  LogBranch branch_;
+  bool unscaled_;
+  double goal_filter_;
+  SpringDamper spring_;
+  ForcingScale scale_;
+  Eigen::Vector3d model_error_;
+  Eigen::Quaterniond q_;
+  Eigen::Vector3d eta_;
+  Eigen::Vector3d e_;
+  Eigen::Quaterniond goal_;    // as filtered
+  Eigen::Quaterniond target_;  // as set
+  Eigen::Quaterniond start_;
+  bool settled_ = true;
+  Eigen::Matrix<double, 4, 3, Eigen::RowMajor> scratch_ = Eigen::Matrix<double, 4, 3, Eigen::RowMajor>::Zero();
+  Eigen::Quaterniond rotation_;  // outputs: the last finite ones
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace dmp::detail

@@ -1,0 +1,111 @@
+#include "detail/position_motion.hpp"
+
+#include <cmath>
+
+namespace dmp::detail {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+PositionMotion::PositionMotion(const DmpOptions& options, const VectorXd& start, const VectorXd& goal, const VectorXd& z,
+                               const VectorXd& amplitude)
+    : integrator_(options.integrator),
+      unscaled_(options.scaling == Scaling::none),
+      goal_filter_(options.goal_filter),
+      spring_(options.alpha, *options.beta),
+      scale_(options.scaling, goal - start, amplitude),
+      start_(start),
+      y_(start),
+      z_(z),
+      goal_(goal),
+      target_(goal),
+      scratch_(RowMatrix::Zero(3, start.size())),
+      displacement_(goal - start),
+      position_(start),
+      velocity_(VectorXd::Zero(start.size())),
+      acceleration_(velocity_) {
+  scale_.set(displacement_);
+}
+
+void PositionMotion::begin(const Eigen::Ref<const VectorXd>& y, const Eigen::Ref<const VectorXd>& z) noexcept {
+  start_ = y;
+  y_ = y;
+  z_ = z;
+  jump_to_goal();
+  set_goal(target_);
+}
+
+void PositionMotion::set_goal(const Eigen::Ref<const VectorXd>& goal) noexcept {
+  target_ = goal;
+  settled_ = goal_filter_ == 0.0 || goal_ == target_;
+  if (settled_) goal_ = target_;
+  // The scale goes by the goal as set: a filtered one would modulate the forcing term.
+  displacement_ = target_ - start_;
+  scale_.set(displacement_);
+}
+
+void PositionMotion::start_with_goal(const Eigen::Ref<const VectorXd>& goal) noexcept {
+  set_goal(goal);
+  jump_to_goal();
+}
+
+void PositionMotion::jump_to_goal() noexcept {
+  goal_ = target_;
+  settled_ = true;
+}
+
+const double* PositionMotion::scaled(const double* forcing, int node) noexcept {
+  if (unscaled_) return forcing;
+  for (Index d = 0; d < scratch_.cols(); ++d) scratch_(node, d) = forcing[d];
+  scale_.apply(scratch_.row(node).data());
+  return scratch_.row(node).data();
+}
+
+void PositionMotion::advance(double step, const ForcingNodes& forcing) noexcept {
+  const double* end = scaled(forcing.end, 2);
+  if (integrator_ == Integrator::semi_implicit_euler) return advance_euler(step, end);
+  advance_exactly(step, scaled(forcing.start, 0), scaled(forcing.middle, 1), end);
+}
+
+void PositionMotion::advance_exactly(double step, const double* start, const double* middle, const double* end) noexcept {
+  spring_.prepare(step);
+  const double half_decay = settled_ ? 0.0 : std::exp(-0.5 * goal_filter_ * step);
+  const double stiffness = spring_.stiffness();
+  double farthest = 0.0;
+  for (Index d = 0; d < y_.size(); ++d) {
+    double pull_start = 0.0;
+    double pull_middle = 0.0;
+    if (!settled_) {  // the goal moves: its way is a force on the spring around where it arrives
+      const double away = goal_[d] - target_[d];
+      goal_[d] = target_[d] + half_decay * half_decay * away;
+      pull_start = stiffness * away * (1.0 - half_decay * half_decay);
+      pull_middle = stiffness * away * half_decay * (1.0 - half_decay);
+      farthest = std::fmax(farthest, std::abs(goal_[d] - target_[d]) - 1e-15 * std::abs(target_[d]));
+    }
+    double u = y_[d] - goal_[d];
+    spring_.advance(u, z_[d], start[d] + pull_start, middle[d] + pull_middle, end[d]);
+    y_[d] = goal_[d] + u;
+  }
+  if (!settled_ && farthest < 1e-300) jump_to_goal();
+}
+
+void PositionMotion::advance_euler(double step, const double* end) noexcept {
+  const double beta = spring_.stiffness() / spring_.alpha();
+  goal_ = target_ + std::exp(-goal_filter_ * step) * (goal_ - target_);
+  for (Index d = 0; d < y_.size(); ++d) {
+    z_[d] += step * (spring_.alpha() * (beta * (goal_[d] - y_[d]) - z_[d]) + end[d]);
+    y_[d] += step * z_[d];
+  }
+}
+
+void PositionMotion::publish(double tau, double tau_rate, const double* forcing) noexcept {
+  const double* force = scaled(forcing, 2);
+  for (Index d = 0; d < y_.size(); ++d) {
+    const double zs = spring_.stiffness() * (goal_[d] - y_[d]) - spring_.alpha() * z_[d] + force[d];
+    position_[d] = y_[d];
+    velocity_[d] = z_[d] / tau;
+    acceleration_[d] = (zs - z_[d] * tau_rate) / (tau * tau);
+  }
+}
+
+}  // namespace dmp::detail

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <dmp/error.hpp>
+#include <dmp/status.hpp>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <string>
+
+#include "detail/text.hpp"
+
+namespace dmp::detail {
+
+/// 0, dt, ... up to the duration: floor(duration / dt + 1e-6) + 1 times.
+inline Eigen::VectorXd rollout_times(double duration, double dt) {
+  if (!(std::isfinite(dt) && dt > 0.0))
+    throw InvalidArgument("dt: " + number(dt) + ", expected a positive time step in s.");
+  const double steps = std::floor(duration / dt + 1e-6);
+  if (!(steps < 1e7))
+    throw InvalidArgument("dt: " + number(dt) + " s makes more than 10^7 samples of " + number(duration) +
+                          " s. Choose a larger one.");
+  const Eigen::Index count = static_cast<Eigen::Index>(steps) + 1;
+  return dt * Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1));
+}
+
+inline void require_duration(double duration) {
+  if (!(std::isfinite(duration) && duration > 0.0))
+    throw InvalidArgument("duration: " + number(duration) + ", expected a positive time in s.");
+}
+
+/// Steps a runner from one time to the next and calls record(k) at each.
+template <class Runner, class Record>
+void roll_out(Runner& runner, const Eigen::VectorXd& times, Record record) {
+  double now = 0.0;
+  for (Eigen::Index k = 0; k < times.size(); ++k) {
+    if (!(std::isfinite(times[k]) && times[k] >= now))
+      throw InvalidArgument(indexed("times", k) + ": " + number(times[k]) + " s after " + number(now) +
+                            " s, expected increasing times from 0 s on.");
+    const Status status = runner.step(times[k] - now);
+    if (status == Status::not_finite)
+      throw InvalidArgument("rollout: the motion left the finite numbers at " + number(times[k]) +
+                            " s. Check goal, duration and options.");
+    if (status == Status::invalid_input)
+      throw InvalidArgument(indexed("times", k) + ": " + number(times[k] - now) +
+                            " s after the one before, expected at most 100 durations.");
+    now = times[k];
+    record(k);
+  }
+}
+
+}  // namespace dmp::detail

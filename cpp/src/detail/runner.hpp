@@ -1,0 +1,136 @@
+#pragma once
+
+#include <dmp/forcing.hpp>
+#include <dmp/options.hpp>
+#include <dmp/phase.hpp>
+#include <dmp/status.hpp>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "detail/position_motion.hpp"
+
+namespace dmp::detail {
+
+/// Takes a motion (positions, orientation, or both) through the phase. What every run has in common stands here once:
+/// steps are divided so that none exceeds a part of the duration and none straddles its end, the forcing term is
+/// evaluated at the nodes of each, and the outputs change only while they are finite.
+template <class Motion>
+class Runner {
+ public:
+  /// `forcing` must outlive the runner.
+  Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, Motion motion)
+      : forcing_(&forcing),
+        phase_(duration, options.alpha_x),
+        motion_(std::move(motion)),
+        nodes_(RowMatrix::Zero(3, forcing.padded_dimension())),
+        psi_(forcing.basis().window_capacity()),
+        divides_(options.integrator == Integrator::exact),
+        force_after_end_(options.force_after_end),
+        duration_filter_(options.duration_filter),
+        largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
+    publish();
+  }
+
+  Motion& motion() noexcept { return motion_; }
+  const Motion& motion() const noexcept { return motion_; }
+  const Phase& phase() const noexcept { return phase_; }
+  Status status() const noexcept { return status_; }
+
+  Status step(double dt) noexcept {
+    if (status_ == Status::not_finite) return status_;
+    const double way = phase_.increment(dt);
+    if (!(dt >= 0.0) || !(way <= kFarthest)) return Status::invalid_input;
+    advance(way);
+    phase_.advance(dt);
+    if (!motion_.finite()) return status_ = Status::not_finite;
+    publish();
+    return status_ = phase_.s() >= 1.0 - kRounding ? Status::finished : Status::running;
+  }
+
+  Status set_duration(double duration) noexcept {
+    return phase_.set_duration(duration, duration_filter_) ? status_ : Status::invalid_input;
+  }
+  /// Before the first step: the duration at once, without the filter.
+  bool start_with_duration(double duration) noexcept { return phase_.set_duration(duration, 0.0); }
+
+  /// The phase at its start; then put the motion there and call restart().
+  void reset_phase() noexcept { phase_.reset(); }
+  void restart() noexcept {
+    phase_.reset();
+    evaluated_at_ = -1.0;
+    status_ = Status::running;
+    publish();
+  }
+
+  /// Outputs from the state as it is.
+  void publish() noexcept {
+    const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
+    evaluate(kEnd, phase_.s(), on);
+    evaluated_at_ = on ? phase_.s() : -1.0;
+    motion_.publish(phase_.duration(), phase_.duration_rate(), node(kEnd));
+  }
+
+ private:
+  static constexpr double kRounding = 1e-9;
+  static constexpr double kFarthest = 100.0;  // durations in one call: bounds the work
+  enum Node : Eigen::Index { kStart, kMiddle, kEnd };
+
+  static double largest_rate(const DmpOptions& options) {
+    return std::max({options.alpha, *options.orientation_alpha, options.goal_filter});
+  }
+
+  double* node(Node which) noexcept { return nodes_.row(which).data(); }
+
+  void evaluate(Node which, double s, bool on) noexcept {
+    if (on) return forcing_->evaluate(s, psi_.data(), node(which));
+    std::fill_n(node(which), nodes_.cols(), 0.0);
+  }
+
+  void advance(double way) noexcept {
+    double s = phase_.s();
+    const bool straddles = s < 1.0 - kRounding && s + way > 1.0 + kRounding;
+    if (straddles && divides_) {
+      advance_evenly(s, 1.0 - s);
+      way -= 1.0 - s;
+      s = 1.0;
+    }
+    advance_evenly(s, way);
+  }
+
+  void advance_evenly(double s, double way) noexcept {
+    if (way <= 0.0) return;
+    const int pieces = divides_ ? std::max(1, static_cast<int>(std::ceil(way / largest_step_ - 1e-6))) : 1;
+    const double piece = way / pieces;
+    const bool on = force_after_end_ || s < 1.0 - kRounding;
+    for (int i = 0; i < pieces; ++i) advance_once(s + i * piece, piece, on);
+  }
+
+  void advance_once(double s, double piece, bool on) noexcept {
+    if (on && std::abs(s - evaluated_at_) < 1e-13) {
+      std::copy_n(node(kEnd), nodes_.cols(), node(kStart));
+    } else {
+      evaluate(kStart, s, on);
+    }
+    evaluate(kMiddle, s + 0.5 * piece, on);
+    evaluate(kEnd, s + piece, on);
+    evaluated_at_ = on ? s + piece : -1.0;
+    motion_.advance(piece, {node(kStart), node(kMiddle), node(kEnd)});
+  }
+
+  const ForcingTerm* forcing_;
+  Phase phase_;
+  Motion motion_;
+  RowMatrix nodes_;
+  Eigen::VectorXd psi_;
+  double evaluated_at_ = -1.0;  // the phase whose forcing stands in the last node
+  bool divides_;
+  bool force_after_end_;
+  double duration_filter_;
+  double largest_step_;
+  Status status_ = Status::running;
+};
+
+}  // namespace dmp::detail

@@ -1,0 +1,183 @@
+#include <dmp/error.hpp>
+#include <dmp/forcing.hpp>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace dmp {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Index padded(Index dimension) { return (dimension + 1) / 2 * 2; }
+
+template <int Columns>
+void weighted_sum(const double* psi, int count, const double* rows, Index stride, double* f, double x) noexcept {
+  const Index columns = Columns > 0 ? Columns : stride;
+  for (Index d = 0; d < columns; ++d) f[d] = 0.0;
+  double total = 0.0;
+  for (int k = 0; k < count; ++k) {
+    total += psi[k];
+    for (Index d = 0; d < columns; ++d) f[d] += psi[k] * rows[k * columns + d];
+  }
+  const double factor = x / total;
+  for (Index d = 0; d < columns; ++d) f[d] *= factor;
+}
+
+/// How much of the phase each sample stands for, their mean being 1: a uniform grid has equal shares.
+VectorXd shares(const VectorXd& s) {
+  const Index n = s.size();
+  VectorXd share = VectorXd::Ones(n);
+  for (Index k = 1; k + 1 < n; ++k) share[k] = 0.5 * (s[k + 1] - s[k - 1]);
+  if (n > 1) {
+    share[0] = s[1] - s[0];
+    share[n - 1] = s[n - 1] - s[n - 2];
+  }
+  return share / share.mean();
+}
+
+/// The sums that both regressions need, for axes that share their scales.
+class NormalEquations {
+ public:
+  NormalEquations(const GaussianBasis& basis, Index axes, bool local)
+      : basis_(basis),
+        local_(local),
+        gram_(RowMatrix::Zero(basis.count(), basis.window_capacity())),
+        right_(RowMatrix::Zero(basis.count(), axes)),
+        norm_(VectorXd::Zero(basis.count())),
+        psi_(basis.window_capacity()) {}
+
+  /// Adds the samples of one demonstration; axes first .. first + axes - 1 of the target, all with one scale.
+  void add(const ForcingTarget& target, Index first, double scale) {
+    const VectorXd share = shares(target.s);
+    for (Index k = 0; k < target.s.size(); ++k) {
+      const GaussianBasis::Window window = basis_.activations(target.s[k], psi_.data());
+      const double total = psi_.head(window.count).sum();
+      if (total == 0.0) continue;
+      const double x = std::exp(-basis_.alpha_x() * target.s[k]) * scale;
+      const double weight = local_ ? share[k] : share[k] / total;
+      add_sample(window, weight * x * x / total, weight * x * target.value.row(k).segment(first, right_.cols()));
+      norm_.segment(window.first, window.count) += share[k] * x * x * psi_.head(window.count);
+    }
+  }
+
+  RowMatrix solve_lwr(int passes) const {
+    RowMatrix weights = RowMatrix::Zero(right_.rows(), right_.cols());
+    for (int pass = 0; pass < passes; ++pass) {
+      const RowMatrix residual = right_ - times_gram(weights);
+      for (Index i = 0; i < weights.rows(); ++i)
+        if (norm_[i] > 0.0) weights.row(i) += residual.row(i) / norm_[i];
+    }
+    return weights;
+  }
+
+  RowMatrix solve_ridge(double ridge) const {
+    const Index n = gram_.rows();
+    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
+    for (Index i = 0; i < n; ++i)
+      for (Index k = 0; k < std::min(gram_.cols(), n - i); ++k) full(i + k, i) = gram_(i, k);
+    const double trace = full.diagonal().sum();
+    if (trace == 0.0) return RowMatrix::Zero(n, right_.cols());
+    full.diagonal().array() += ridge * trace / static_cast<double>(n);
+    return full.selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd(right_));
+  }
+
+ private:
+  void add_sample(const GaussianBasis::Window& window, double factor, const Eigen::RowVectorXd& value) {
+    for (int a = 0; a < window.count; ++a) {
+      const Index rest = window.count - a;
+      gram_.row(window.first + a).head(rest) += factor * psi_[a] * psi_.segment(a, rest).transpose();
+      right_.row(window.first + a) += psi_[a] * value;
+    }
+  }
+
+  /// gram_ holds the upper band of a symmetric matrix: gram_(i, k) = G(i, i + k).
+  RowMatrix times_gram(const RowMatrix& weights) const {
+    RowMatrix product = RowMatrix::Zero(weights.rows(), weights.cols());
+    for (Index i = 0; i < gram_.rows(); ++i) {
+      const Index width = std::min(gram_.cols(), gram_.rows() - i);
+      product.row(i) += gram_.row(i).head(width) * weights.middleRows(i, width);
+      for (Index k = 1; k < width; ++k) product.row(i + k) += gram_(i, k) * weights.row(i);
+    }
+    return product;
+  }
+
+  const GaussianBasis& basis_;
+  bool local_;
+  RowMatrix gram_;
+  RowMatrix right_;
+  VectorXd norm_;
+  VectorXd psi_;
+};
+
+bool one_scale(const std::vector<ForcingTarget>& targets) {
+  return std::all_of(targets.begin(), targets.end(),
+                     [](const ForcingTarget& t) { return (t.scale.array() == t.scale[0]).all(); });
+}
+
+void require_scale(const std::vector<ForcingTarget>& targets, Index axis) {
+  double scale = 0.0;
+  double value = 0.0;
+  for (const ForcingTarget& target : targets) {
+    scale = std::max(scale, std::abs(target.scale[axis]));
+    value = std::max(value, target.value.col(axis).cwiseAbs().maxCoeff());
+  }
+  if (scale < 1e-9 && value > 1e-9)
+    throw InvalidArgument("scaling: axis " + std::to_string(axis) +
+                          " of the demonstration ends where it starts, so (goal - start) can not scale its forcing "
+                          "term. Use Scaling::none or Scaling::per_axis_relative.");
+}
+
+/// Axes first .. first + axes - 1, which share their scales.
+RowMatrix fit_axes(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets, const DmpOptions& options,
+                   Index first, Index axes) {
+  const bool local = options.regression == Regression::lwr;
+  NormalEquations equations(basis, axes, local);
+  for (const ForcingTarget& target : targets) equations.add(target, first, target.scale[first]);
+  return local ? equations.solve_lwr(options.passes) : equations.solve_ridge(options.ridge);
+}
+
+}  // namespace
+
+ForcingTerm::ForcingTerm(const GaussianBasis& basis, const RowMatrix& weights)
+    : basis_(basis), dimension_(weights.cols()), rows_(RowMatrix::Zero(weights.rows(), padded(weights.cols()))) {
+  if (weights.rows() != basis.count())
+    throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " rows, expected one for each of the " +
+                          std::to_string(basis.count()) + " kernels.");
+  if (weights.cols() == 0 || !weights.allFinite())
+    throw InvalidArgument("weights: empty or not finite, expected finite numbers (N x dims).");
+  rows_.leftCols(dimension_) = weights;
+}
+
+void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {
+  const GaussianBasis::Window window = basis_.proportional(s, psi);
+  const double x = std::exp(-basis_.alpha_x() * s);
+  const double* rows = rows_.data() + window.first * rows_.cols();
+  switch (rows_.cols()) {
+    case 2: return weighted_sum<2>(psi, window.count, rows, 2, f, x);
+    case 4: return weighted_sum<4>(psi, window.count, rows, 4, f, x);
+    case 6: return weighted_sum<6>(psi, window.count, rows, 6, f, x);
+    default: return weighted_sum<0>(psi, window.count, rows, rows_.cols(), f, x);
+  }
+}
+
+RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
+  RowMatrix values(s.size(), rows_.cols());
+  VectorXd psi(basis_.window_capacity());
+  for (Index k = 0; k < s.size(); ++k) evaluate(s[k], psi.data(), values.row(k).data());
+  return values.leftCols(dimension_);
+}
+
+RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets, const DmpOptions& options) {
+  const Index dimension = targets.front().value.cols();
+  for (Index axis = 0; axis < dimension; ++axis) require_scale(targets, axis);
+  if (one_scale(targets)) return fit_axes(basis, targets, options, 0, dimension);
+  RowMatrix weights(basis.count(), dimension);
+  for (Index axis = 0; axis < dimension; ++axis) weights.col(axis) = fit_axes(basis, targets, options, axis, 1);
+  return weights;
+}
+
+}  // namespace dmp

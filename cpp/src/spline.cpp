@@ -1,0 +1,128 @@
+#include <dmp/spline.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace dmp {
+namespace {
+
+using Eigen::Index;
+
+/// The B-splines that are not zero at a time: of degree p and of the two degrees below, by Cox-de Boor's
+/// recurrence (de Boor 1978, chapter X), which passes through the lower degrees on its way.
+struct LocalBasis {
+  std::array<std::array<double, 6>, 3> values{};  // [d]: degree p - d, p - d + 1 of them
+
+  LocalBasis(const double* knots, Index interval, int degree, double time) {
+    std::array<double, 6> row{1.0};
+    std::array<double, 6> left{};
+    std::array<double, 6> right{};
+    keep(row, degree, 0);
+    for (int j = 1; j <= degree; ++j) {
+      left[j] = time - knots[interval + 1 - j];
+      right[j] = knots[interval + j] - time;
+      double saved = 0.0;
+      for (int r = 0; r < j; ++r) {
+        const double term = row[r] / (right[r + 1] + left[j - r]);
+        row[r] = saved + right[r + 1] * term;
+        saved = left[j - r] * term;
+      }
+      row[j] = saved;
+      keep(row, degree, j);
+    }
+  }
+
+ private:
+  void keep(const std::array<double, 6>& row, int degree, int reached) {
+    if (degree - reached < 3) values[degree - reached] = row;
+  }
+};
+
+/// Solves the banded system in place by elimination without pivoting, which is stable for a B-spline collocation
+/// matrix (totally positive: de Boor and Pinkus 1977). band(i, j - i + half) = A(i, j); b becomes the solution.
+void solve_banded(RowMatrix& band, RowMatrix& b, Index half) {
+  const Index n = band.rows();
+  for (Index i = 0; i < n; ++i) {
+    const Index last = std::min(i + half, n - 1);
+    for (Index r = i + 1; r <= last; ++r) {
+      const double below = band(r, i - r + half);
+      if (below == 0.0) continue;
+      const double factor = below / band(i, half);
+      for (Index c = i; c <= last; ++c) band(r, c - r + half) -= factor * band(i, c - i + half);
+      b.row(r) -= factor * b.row(i);
+    }
+  }
+  for (Index i = n - 1; i >= 0; --i) {
+    for (Index c = i + 1; c <= std::min(i + half, n - 1); ++c) b.row(i) -= band(i, c - i + half) * b.row(c);
+    b.row(i) /= band(i, half);
+  }
+}
+
+std::vector<double> not_a_knot(const Eigen::VectorXd& times, int degree) {
+  const Index n = times.size();
+  const Index skipped = (degree + 1) / 2;  // samples at either end that are no knots
+  std::vector<double> knots(degree + 1, times[0]);
+  if (n > degree + 1)
+    for (Index i = skipped; i < n - skipped; ++i) knots.push_back(times[i]);
+  knots.insert(knots.end(), degree + 1, times[n - 1]);
+  return knots;
+}
+
+}  // namespace
+
+Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values)
+    : degree_(static_cast<int>(std::min<Index>(kDegree, times.size() - 1))), knots_(not_a_knot(times, degree_)) {
+  interpolate(times, values);
+  differentiate();
+}
+
+Index Spline::interval(double time) const noexcept {
+  const auto first = knots_.begin() + degree_;
+  const auto last = knots_.end() - degree_ - 1;
+  const auto above = std::upper_bound(first, last, time);
+  return std::clamp<Index>(above - knots_.begin() - 1, degree_, static_cast<Index>(knots_.size()) - degree_ - 2);
+}
+
+void Spline::interpolate(const Eigen::VectorXd& times, const RowMatrix& values) {
+  const Index n = times.size();
+  const Index half = degree_;
+  RowMatrix band = RowMatrix::Zero(n, 2 * half + 1);
+  for (Index i = 0; i < n; ++i) {
+    const Index at = interval(times[i]);
+    const LocalBasis basis(knots_.data(), at, degree_, times[i]);
+    for (Index j = 0; j <= degree_; ++j) band(i, at - degree_ + j - i + half) = basis.values[0][j];
+  }
+  coefficients_[0] = values;
+  solve_banded(band, coefficients_[0], half);
+}
+
+void Spline::differentiate() {
+  for (int d = 1; d <= 2; ++d) {
+    const RowMatrix& upper = coefficients_[d - 1];
+    const int degree = degree_ - d + 1;
+    RowMatrix lower = RowMatrix::Zero(std::max<Index>(upper.rows() - 1, 1), upper.cols());
+    for (Index i = 0; degree > 0 && i + 1 < upper.rows(); ++i) {
+      const double span = knots_[i + degree_ + 1] - knots_[i + d];
+      lower.row(i) = degree / span * (upper.row(i + 1) - upper.row(i));
+    }
+    coefficients_[d] = lower;
+  }
+}
+
+Spline::Samples Spline::sample(const Eigen::VectorXd& times) const {
+  const Index n = times.size();
+  Samples samples{RowMatrix::Zero(n, dimension()), RowMatrix::Zero(n, dimension()), RowMatrix::Zero(n, dimension())};
+  std::array<RowMatrix*, 3> out{&samples.value, &samples.first, &samples.second};
+  for (Index k = 0; k < n; ++k) {
+    const Index at = interval(times[k]);
+    const LocalBasis basis(knots_.data(), at, degree_, times[k]);
+    for (int d = 0; d <= std::min(2, degree_); ++d) {
+      const int degree = degree_ - d;
+      for (Index j = 0; j <= degree; ++j)
+        out[d]->row(k) += basis.values[d][j] * coefficients_[d].row(at - degree_ + j);
+    }
+  }
+  return samples;
+}
+
+}  // namespace dmp
