@@ -149,11 +149,11 @@ Vector3d log(const Matrix3d& r) noexcept { return log(shepperd(r)); }
 Vector3d lifted_log(const Quaterniond& q, const Vector3d& previous) noexcept {
   const Vector3d principal = log(q);
   const double theta = principal.norm();
-  if (theta < 1e-12) {  // the axis is lost: keep the previous one, on the whole turn nearest to it
+  if (theta < 1e-3) {  // near a whole turn the axis is lost in rounding: keep the previous one
     const double length = previous.norm();
     const double turns = std::round(length / (2.0 * kPi));
     if (turns == 0.0) return principal;
-    return principal + previous * (2.0 * kPi * turns / length);
+    return previous / length * (2.0 * kPi * turns + principal.dot(previous) / length);
   }
   const Vector3d axis = principal / theta;
   const double turns = std::round((previous.dot(axis) - theta) / (2.0 * kPi));

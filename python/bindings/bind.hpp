@@ -6,8 +6,12 @@
 namespace dmp::python {
 
 void bind_so3(pybind11::module_& m);
+void bind_options(pybind11::module_& m);
 void bind_demonstration(pybind11::module_& m);
 void bind_dmp(pybind11::module_& m);
+void bind_orientation_dmp(pybind11::module_& m);
+void bind_pose_dmp(pybind11::module_& m);
+void bind_file(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
 
 }  // namespace dmp::python

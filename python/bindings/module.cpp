@@ -10,6 +10,10 @@ PYBIND11_MODULE(_core, m) {
   py::register_exception<dmp::FileError>(m, "FileError", PyExc_OSError);
   dmp::python::bind_so3(m);
   dmp::python::bind_demonstration(m);
+  dmp::python::bind_options(m);
   dmp::python::bind_dmp(m);
+  dmp::python::bind_orientation_dmp(m);
+  dmp::python::bind_pose_dmp(m);
+  dmp::python::bind_file(m);
   dmp::python::bind_kinematics(m);
 }

@@ -1,0 +1,2 @@
+#include "bind.hpp"
+namespace dmp::python { void bind_kinematics(pybind11::module_&) {} }
