@@ -61,7 +61,8 @@ int GaussianBasis::nearest(double s) const noexcept {
 GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi) const noexcept {
   const int middle = nearest(s);
   const double offset = s * (count_ - 1) - middle;
-  const Window window{std::max(middle - reach_, 0), std::min(middle + reach_, count_ - 1) - std::max(middle - reach_, 0) + 1};
+  const Window window{std::max(middle - reach_, 0),
+                      std::min(middle + reach_, count_ - 1) - std::max(middle - reach_, 0) + 1};
   double* const at_middle = psi + (middle - window.first);
   *at_middle = 1.0;
   // exp(-o (r - k)^2) = exp(-o r^2) exp(2 o r)^k exp(-o k^2): the first factor is common to all.
@@ -72,7 +73,8 @@ GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi)
   const int above = window.first + window.count - 1 - middle;
   for (int k = 1; k <= above; ++k) at_middle[k] = (power *= up) * table_[static_cast<std::size_t>(k)];
   power = 1.0;
-  for (int k = 1; k <= middle - window.first; ++k) at_middle[-k] = (power *= down) * table_[static_cast<std::size_t>(k)];
+  for (int k = 1; k <= middle - window.first; ++k)
+    at_middle[-k] = (power *= down) * table_[static_cast<std::size_t>(k)];
   return window;
 }
 
@@ -83,7 +85,8 @@ GaussianBasis::Window GaussianBasis::source_window(double s, double* psi, bool p
     psi[i] = -width_[i] * (x - center_[i]) * (x - center_[i]);
     if (proportional) largest = std::max(largest, psi[i]);
   }
-  for (std::size_t i = 0; i < center_.size(); ++i) psi[i] = std::exp(std::max(psi[i] - largest, kSmallestExponent));
+  for (std::size_t i = 0; i < center_.size(); ++i)
+    psi[i] = std::exp(std::max(psi[i] - largest, kSmallestExponent));
   return {0, count_};
 }
 
@@ -105,7 +108,8 @@ RowMatrix GaussianBasis::activations(const Eigen::VectorXd& s, bool normalised) 
   for (Eigen::Index k = 0; k < s.size(); ++k) {
     std::vector<double> psi(static_cast<std::size_t>(capacity_));
     const Window window = normalised ? proportional(s[k], psi.data()) : activations(s[k], psi.data());
-    table.row(k).segment(window.first, window.count) = Eigen::Map<Eigen::RowVectorXd>(psi.data(), window.count);
+    table.row(k).segment(window.first, window.count) =
+        Eigen::Map<Eigen::RowVectorXd>(psi.data(), window.count);
     if (normalised) table.row(k) /= table.row(k).sum();
   }
   return table;

@@ -16,15 +16,18 @@ using Eigen::Quaterniond;
 
 void require_times(const Eigen::VectorXd& times, Index count, const std::string& what) {
   if (times.size() != count)
-    throw InvalidArgument("times: " + std::to_string(times.size()) + " of them, expected one for each of the " +
-                          std::to_string(count) + " " + what + ".");
+    throw InvalidArgument("times: " + std::to_string(times.size()) +
+                          " of them, expected one for each of the " + std::to_string(count) + " " + what +
+                          ".");
   if (count < 2)
-    throw InvalidArgument(what + ": " + std::to_string(count) + " samples, expected at least 2 (a start and a goal).");
+    throw InvalidArgument(what + ": " + std::to_string(count) +
+                          " samples, expected at least 2 (a start and a goal).");
   for (Index k = 0; k < count; ++k) {
     if (!std::isfinite(times[k]))
       throw InvalidArgument(indexed("times", k) + ": " + number(times[k]) + ", expected a finite time in s.");
     if (k > 0 && !(times[k] > times[k - 1]))
-      throw InvalidArgument(indexed("times", k) + ": " + number(times[k]) + " s after " + number(times[k - 1]) +
+      throw InvalidArgument(indexed("times", k) + ": " + number(times[k]) + " s after " +
+                            number(times[k - 1]) +
                             " s, expected strictly increasing times. Remove or merge the repeated samples.");
   }
 }
@@ -40,8 +43,9 @@ RowMatrix checked(const RowMatrix& positions) {
   for (Index k = 0; k < positions.rows(); ++k)
     for (Index d = 0; d < positions.cols(); ++d)
       if (!std::isfinite(positions(k, d)))
-        throw InvalidArgument("positions[" + std::to_string(k) + ", " + std::to_string(d) + "]: " +
-                              number(positions(k, d)) + ", expected a finite number. Remove or fill the gap.");
+        throw InvalidArgument("positions[" + std::to_string(k) + ", " + std::to_string(d) +
+                              "]: " + number(positions(k, d)) +
+                              ", expected a finite number. Remove or fill the gap.");
   return positions;
 }
 
@@ -53,8 +57,9 @@ Rotations checked(const Rotations& rotations) {
     if (k == 0) continue;
     const double angle = so3::distance(result[k], result[k - 1]);
     if (angle > M_PI / 2)
-      throw InvalidArgument(indexed("rotations", static_cast<long>(k)) + ": " + number(angle * 180 / M_PI) +
-                            " deg from the sample before, expected at most 90. Sample faster, or remove the jump.");
+      throw InvalidArgument(
+          indexed("rotations", static_cast<long>(k)) + ": " + number(angle * 180 / M_PI) +
+          " deg from the sample before, expected at most 90. Sample faster, or remove the jump.");
   }
   return result;
 }
@@ -87,7 +92,8 @@ Rotations rotations_of(const Poses& poses) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Eigen::RowVector4d last = poses[k].row(3);
     if ((last - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-9 || !last.allFinite())
-      throw InvalidArgument(indexed("poses", static_cast<long>(k)) + ": its last row is not 0 0 0 1. Check the layout: [R p; 0 1].");
+      throw InvalidArgument(indexed("poses", static_cast<long>(k)) +
+                            ": its last row is not 0 0 0 1. Check the layout: [R p; 0 1].");
     rotations.push_back(poses[k].topLeftCorner<3, 3>());
   }
   return rotations;
@@ -96,7 +102,9 @@ Rotations rotations_of(const Poses& poses) {
 }  // namespace
 
 Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions)
-    : time_(from_zero(times, positions.rows(), "positions")), position_(checked(positions)), spline_(time_, position_) {}
+    : time_(from_zero(times, positions.rows(), "positions")),
+      position_(checked(positions)),
+      spline_(time_, position_) {}
 
 Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
   Spline::Samples samples = spline_.sample(times);
@@ -108,7 +116,8 @@ OrientationDemonstration::OrientationDemonstration(const Eigen::VectorXd& times,
       rotation_(checked(rotations)),
       spline_(time_, continuous_quaternions(rotation_)) {}
 
-OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::VectorXd& times, const RowMatrix& angles,
+OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::VectorXd& times,
+                                                              const RowMatrix& angles,
                                                               const std::string& convention) {
   if (angles.cols() != 3)
     throw InvalidArgument("angles: " + std::to_string(angles.cols()) + " columns, expected 3 (rad).");
@@ -145,7 +154,8 @@ Poses PoseDemonstration::pose() const {
   Poses poses;
   poses.reserve(static_cast<std::size_t>(size()));
   for (Index k = 0; k < size(); ++k)
-    poses.push_back(pose_of(orientation_.rotation()[static_cast<std::size_t>(k)], position_.position().row(k)));
+    poses.push_back(
+        pose_of(orientation_.rotation()[static_cast<std::size_t>(k)], position_.position().row(k)));
   return poses;
 }
 

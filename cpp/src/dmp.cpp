@@ -94,13 +94,20 @@ Dmp::Dmp(const DmpParameters& parameters) {
 const DmpParameters& Dmp::parameters() const noexcept { return data_->parameters; }
 const ForcingTerm& Dmp::forcing() const noexcept { return data_->forcing; }
 
-Trajectory Dmp::rollout(const std::optional<VectorXd>& goal, std::optional<double> duration, double dt) const {
+Trajectory Dmp::rollout(const std::optional<VectorXd>& goal, std::optional<double> duration,
+                        double dt) const {
   if (duration) detail::require_duration(*duration);
-  return rollout_at(detail::rollout_times(duration.value_or(this->duration()), dt), goal, duration);
+  return roll_out(detail::every(dt, duration.value_or(this->duration())), goal, duration);
 }
 
-Trajectory Dmp::rollout_at(const VectorXd& times, const std::optional<VectorXd>& goal,
+Trajectory Dmp::rollout_at(const Eigen::VectorXd& times, const std::optional<VectorXd>& goal,
                            std::optional<double> duration) const {
+  return roll_out({times, 0.0}, goal, duration);
+}
+
+Trajectory Dmp::roll_out(const detail::Timetable& timetable, const std::optional<VectorXd>& goal,
+                         std::optional<double> duration) const {
+  const Eigen::VectorXd& times = timetable.times;
   Run run(*this);
   auto& runner = run.state_->runner;
   if (duration) {
@@ -114,7 +121,7 @@ Trajectory Dmp::rollout_at(const VectorXd& times, const std::optional<VectorXd>&
   runner.publish();
   Trajectory result{times, RowMatrix(times.size(), dimension()), RowMatrix(times.size(), dimension()),
                     RowMatrix(times.size(), dimension())};
-  detail::roll_out(runner, times, [&](Index k) {
+  detail::roll_out(runner, timetable, [&](Index k) {
     result.position.row(k) = run.position();
     result.velocity.row(k) = run.velocity();
     result.acceleration.row(k) = run.acceleration();
@@ -126,8 +133,8 @@ Run::Run(const Dmp& dmp) {
   const DmpParameters& p = dmp.parameters();
   const VectorXd z = p.duration * p.start_velocity;
   const detail::PositionMotion motion(p.options, p.start, p.goal, z, p.amplitude);
-  state_ = std::make_unique<State>(
-      State{dmp.data_, detail::Runner<detail::PositionMotion>(p.options, dmp.forcing(), p.duration, motion), z});
+  state_ = std::make_unique<State>(State{
+      dmp.data_, detail::Runner<detail::PositionMotion>(p.options, dmp.forcing(), p.duration, motion), z});
 }
 Run::Run(const Run& other) : state_(std::make_unique<State>(*other.state_)) {}
 Run::Run(Run&& other) noexcept = default;
@@ -148,9 +155,11 @@ Status Run::set_goal(const Eigen::Ref<const VectorXd>& goal) noexcept {
 
 Status Run::set_duration(double duration) noexcept { return state_->runner.set_duration(duration); }
 
-Status Run::start_from(const Eigen::Ref<const VectorXd>& position, const Eigen::Ref<const VectorXd>& velocity) noexcept {
+Status Run::start_from(const Eigen::Ref<const VectorXd>& position,
+                       const Eigen::Ref<const VectorXd>& velocity) noexcept {
   const Index dimension = this->position().size();
-  if (position.size() != dimension || velocity.size() != dimension || !position.allFinite() || !velocity.allFinite())
+  if (position.size() != dimension || velocity.size() != dimension || !position.allFinite() ||
+      !velocity.allFinite())
     return Status::invalid_input;
   state_->runner.reset_phase();
   state_->z = duration() * velocity;

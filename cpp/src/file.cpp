@@ -100,7 +100,9 @@ Model load(const std::string& path) {
 }
 
 Dmp load_dmp(const std::string& path) { return load_kind<Dmp>(path, "a Dmp"); }
-OrientationDmp load_orientation_dmp(const std::string& path) { return load_kind<OrientationDmp>(path, "an OrientationDmp"); }
+OrientationDmp load_orientation_dmp(const std::string& path) {
+  return load_kind<OrientationDmp>(path, "an OrientationDmp");
+}
 PoseDmp load_pose_dmp(const std::string& path) { return load_kind<PoseDmp>(path, "a PoseDmp"); }
 
 }  // namespace dmp

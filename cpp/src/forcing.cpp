@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 Index padded(Index dimension) { return (dimension + 1) / 2 * 2; }
 
 template <int Columns>
-void weighted_sum(const double* psi, int count, const double* rows, Index stride, double* f, double x) noexcept {
+void weighted_sum(const double* psi, int count, const double* rows, Index stride, double* f,
+                  double x) noexcept {
   const Index columns = Columns > 0 ? Columns : stride;
   for (Index d = 0; d < columns; ++d) f[d] = 0.0;
   double total = 0.0;
@@ -59,7 +60,8 @@ class NormalEquations {
       if (total == 0.0) continue;
       const double x = std::exp(-basis_.alpha_x() * target.s[k]) * scale;
       const double weight = local_ ? share[k] : share[k] / total;
-      add_sample(window, weight * x * x / total, weight * x * target.value.row(k).segment(first, right_.cols()));
+      add_sample(window, weight * x * x / total,
+                 weight * x * target.value.row(k).segment(first, right_.cols()));
       norm_.segment(window.first, window.count) += share[k] * x * x * psi_.head(window.count);
     }
   }
@@ -126,14 +128,15 @@ void require_scale(const std::vector<ForcingTarget>& targets, Index axis) {
     value = std::max(value, target.value.col(axis).cwiseAbs().maxCoeff());
   }
   if (scale < 1e-9 && value > 1e-9)
-    throw InvalidArgument("scaling: axis " + std::to_string(axis) +
-                          " of the demonstration ends where it starts, so (goal - start) can not scale its forcing "
-                          "term. Use Scaling::none or Scaling::per_axis_relative.");
+    throw InvalidArgument(
+        "scaling: axis " + std::to_string(axis) +
+        " of the demonstration ends where it starts, so (goal - start) can not scale its forcing "
+        "term. Use Scaling::none or Scaling::per_axis_relative.");
 }
 
 /// Axes first .. first + axes - 1, which share their scales.
-RowMatrix fit_axes(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets, const DmpOptions& options,
-                   Index first, Index axes) {
+RowMatrix fit_axes(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
+                   const DmpOptions& options, Index first, Index axes) {
   const bool local = options.regression == Regression::lwr;
   NormalEquations equations(basis, axes, local);
   for (const ForcingTarget& target : targets) equations.add(target, first, target.scale[first]);
@@ -143,10 +146,13 @@ RowMatrix fit_axes(const GaussianBasis& basis, const std::vector<ForcingTarget>&
 }  // namespace
 
 ForcingTerm::ForcingTerm(const GaussianBasis& basis, const RowMatrix& weights)
-    : basis_(basis), dimension_(weights.cols()), rows_(RowMatrix::Zero(weights.rows(), padded(weights.cols()))) {
+    : basis_(basis),
+      dimension_(weights.cols()),
+      rows_(RowMatrix::Zero(weights.rows(), padded(weights.cols()))) {
   if (weights.rows() != basis.count())
-    throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " rows, expected one for each of the " +
-                          std::to_string(basis.count()) + " kernels.");
+    throw InvalidArgument("weights: " + std::to_string(weights.rows()) +
+                          " rows, expected one for each of the " + std::to_string(basis.count()) +
+                          " kernels.");
   if (weights.cols() == 0 || !weights.allFinite())
     throw InvalidArgument("weights: empty or not finite, expected finite numbers (N x dims).");
   rows_.leftCols(dimension_) = weights;
@@ -157,10 +163,14 @@ void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {
   const double x = std::exp(-basis_.alpha_x() * s);
   const double* rows = rows_.data() + window.first * rows_.cols();
   switch (rows_.cols()) {
-    case 2: return weighted_sum<2>(psi, window.count, rows, 2, f, x);
-    case 4: return weighted_sum<4>(psi, window.count, rows, 4, f, x);
-    case 6: return weighted_sum<6>(psi, window.count, rows, 6, f, x);
-    default: return weighted_sum<0>(psi, window.count, rows, rows_.cols(), f, x);
+    case 2:
+      return weighted_sum<2>(psi, window.count, rows, 2, f, x);
+    case 4:
+      return weighted_sum<4>(psi, window.count, rows, 4, f, x);
+    case 6:
+      return weighted_sum<6>(psi, window.count, rows, 6, f, x);
+    default:
+      return weighted_sum<0>(psi, window.count, rows, rows_.cols(), f, x);
   }
 }
 
@@ -171,12 +181,14 @@ RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
   return values.leftCols(dimension_);
 }
 
-RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets, const DmpOptions& options) {
+RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
+                      const DmpOptions& options) {
   const Index dimension = targets.front().value.cols();
   for (Index axis = 0; axis < dimension; ++axis) require_scale(targets, axis);
   if (one_scale(targets)) return fit_axes(basis, targets, options, 0, dimension);
   RowMatrix weights(basis.count(), dimension);
-  for (Index axis = 0; axis < dimension; ++axis) weights.col(axis) = fit_axes(basis, targets, options, axis, 1);
+  for (Index axis = 0; axis < dimension; ++axis)
+    weights.col(axis) = fit_axes(basis, targets, options, axis, 1);
   return weights;
 }
 

@@ -41,7 +41,8 @@ OrientationDmpParameters checked(const OrientationDmpParameters& given) {
 }
 
 OrientationDmpParameters means_of(const std::vector<OrientationDemonstration>& demonstrations,
-                                  const std::vector<detail::OrientationLesson>& lessons, const DmpOptions& options) {
+                                  const std::vector<detail::OrientationLesson>& lessons,
+                                  const DmpOptions& options) {
   OrientationDmpParameters mean;
   mean.options = options;
   mean.duration = 0.0;
@@ -59,8 +60,8 @@ OrientationDmpParameters means_of(const std::vector<OrientationDemonstration>& d
   mean.start = lessons.size() == 1 ? starts[0] : detail::mean_rotation(starts);
   mean.goal = lessons.size() == 1 ? goals[0] : detail::mean_rotation(goals);
   const Quaterniond turn = Quaterniond(mean.goal) * Quaterniond(mean.start).conjugate();
-  mean.start_error =
-      options.log_branch == LogBranch::lifted ? so3::lifted_log(turn, lessons[0].start_error) : so3::log(turn);
+  mean.start_error = options.log_branch == LogBranch::lifted ? so3::lifted_log(turn, lessons[0].start_error)
+                                                             : so3::log(turn);
   return mean;
 }
 
@@ -70,7 +71,8 @@ OrientationDmp OrientationDmp::fit(const OrientationDemonstration& demonstration
   return fit(std::vector<OrientationDemonstration>{demonstration}, options);
 }
 
-OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& demonstrations, const DmpOptions& options) {
+OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& demonstrations,
+                                   const DmpOptions& options) {
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
   const DmpOptions resolved = detail::resolved(options);
   std::vector<detail::OrientationLesson> lessons;
@@ -79,7 +81,8 @@ OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& 
   OrientationDmpParameters parameters = means_of(demonstrations, lessons, resolved);
   std::vector<ForcingTarget> targets;
   for (detail::OrientationLesson& lesson : lessons) {
-    detail::apply_scaling(lesson.target, 0, lesson.start_error, parameters.start_error, parameters.amplitude, resolved);
+    detail::apply_scaling(lesson.target, 0, lesson.start_error, parameters.start_error, parameters.amplitude,
+                          resolved);
     targets.push_back(std::move(lesson.target));
   }
   parameters.weights = fit_forcing(detail::basis_of(resolved), targets, resolved);
@@ -95,14 +98,22 @@ OrientationDmp::OrientationDmp(const OrientationDmpParameters& parameters) {
 const OrientationDmpParameters& OrientationDmp::parameters() const noexcept { return data_->parameters; }
 const ForcingTerm& OrientationDmp::forcing() const noexcept { return data_->forcing; }
 
-OrientationTrajectory OrientationDmp::rollout(const std::optional<Matrix3d>& goal, std::optional<double> duration,
-                                              double dt) const {
+OrientationTrajectory OrientationDmp::rollout(const std::optional<Matrix3d>& goal,
+                                              std::optional<double> duration, double dt) const {
   if (duration) detail::require_duration(*duration);
-  return rollout_at(detail::rollout_times(duration.value_or(this->duration()), dt), goal, duration);
+  return roll_out(detail::every(dt, duration.value_or(this->duration())), goal, duration);
 }
 
-OrientationTrajectory OrientationDmp::rollout_at(const Eigen::VectorXd& times, const std::optional<Matrix3d>& goal,
+OrientationTrajectory OrientationDmp::rollout_at(const Eigen::VectorXd& times,
+                                                 const std::optional<Matrix3d>& goal,
                                                  std::optional<double> duration) const {
+  return roll_out({times, 0.0}, goal, duration);
+}
+
+OrientationTrajectory OrientationDmp::roll_out(const detail::Timetable& timetable,
+                                               const std::optional<Matrix3d>& goal,
+                                               std::optional<double> duration) const {
+  const Eigen::VectorXd& times = timetable.times;
   OrientationRun run(*this);
   auto& runner = run.state_->runner;
   if (duration) {
@@ -116,7 +127,7 @@ OrientationTrajectory OrientationDmp::rollout_at(const Eigen::VectorXd& times, c
   runner.publish();
   OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
   result.rotation.reserve(static_cast<std::size_t>(times.size()));
-  detail::roll_out(runner, times, [&](Index k) {
+  detail::roll_out(runner, timetable, [&](Index k) {
     result.rotation.push_back(run.rotation());
     result.angular_velocity.row(k) = run.angular_velocity();
     result.angular_acceleration.row(k) = run.angular_acceleration();
@@ -126,11 +137,13 @@ OrientationTrajectory OrientationDmp::rollout_at(const Eigen::VectorXd& times, c
 
 OrientationRun::OrientationRun(const OrientationDmp& dmp) {
   const OrientationDmpParameters& p = dmp.parameters();
-  const detail::OrientationMotion motion(p.options, p.start, p.goal, p.start_error, p.duration * p.start_velocity, p.amplitude);
-  state_ = std::make_unique<State>(
-      State{dmp.data_, detail::Runner<detail::OrientationMotion>(p.options, dmp.forcing(), p.duration, motion)});
+  const detail::OrientationMotion motion(p.options, p.start, p.goal, p.start_error,
+                                         p.duration * p.start_velocity, p.amplitude);
+  state_ = std::make_unique<State>(State{
+      dmp.data_, detail::Runner<detail::OrientationMotion>(p.options, dmp.forcing(), p.duration, motion)});
 }
-OrientationRun::OrientationRun(const OrientationRun& other) : state_(std::make_unique<State>(*other.state_)) {}
+OrientationRun::OrientationRun(const OrientationRun& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
 OrientationRun::OrientationRun(OrientationRun&& other) noexcept = default;
 OrientationRun& OrientationRun::operator=(const OrientationRun& other) {
   if (this != &other) state_ = std::make_unique<State>(*other.state_);
@@ -147,7 +160,9 @@ Status OrientationRun::set_goal(const Matrix3d& goal) noexcept {
   return status();
 }
 
-Status OrientationRun::set_duration(double duration) noexcept { return state_->runner.set_duration(duration); }
+Status OrientationRun::set_duration(double duration) noexcept {
+  return state_->runner.set_duration(duration);
+}
 
 Status OrientationRun::start_from(const Matrix3d& rotation, const Vector3d& angular_velocity) noexcept {
   if (!detail::is_rotation(rotation) || !angular_velocity.allFinite()) return Status::invalid_input;
@@ -165,8 +180,12 @@ void OrientationRun::reset() noexcept {
 
 Matrix3d OrientationRun::rotation() const noexcept { return quaternion().toRotationMatrix(); }
 const Quaterniond& OrientationRun::quaternion() const noexcept { return state_->runner.motion().rotation(); }
-const Vector3d& OrientationRun::angular_velocity() const noexcept { return state_->runner.motion().velocity(); }
-const Vector3d& OrientationRun::angular_acceleration() const noexcept { return state_->runner.motion().acceleration(); }
+const Vector3d& OrientationRun::angular_velocity() const noexcept {
+  return state_->runner.motion().velocity();
+}
+const Vector3d& OrientationRun::angular_acceleration() const noexcept {
+  return state_->runner.motion().acceleration();
+}
 Matrix3d OrientationRun::goal() const noexcept { return state_->runner.motion().goal().toRotationMatrix(); }
 double OrientationRun::time() const noexcept { return state_->runner.phase().time(); }
 double OrientationRun::phase() const noexcept { return state_->runner.phase().s(); }

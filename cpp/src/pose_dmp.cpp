@@ -47,13 +47,15 @@ Twist stacked(const Vector3d& linear, const Vector3d& angular) {
 
 PoseMotion motion_of(const PoseDmpParameters& p) {
   const Twist z = p.duration * p.start_twist;
-  return {detail::PositionMotion(p.options, position_of(p.start), position_of(p.goal), z.head<3>(), p.amplitude.head<3>()),
-          detail::OrientationMotion(p.options, rotation_of(p.start), rotation_of(p.goal), p.start_error, z.tail<3>(),
-                                    p.amplitude.tail<3>())};
+  return {detail::PositionMotion(p.options, position_of(p.start), position_of(p.goal), z.head<3>(),
+                                 p.amplitude.head<3>()),
+          detail::OrientationMotion(p.options, rotation_of(p.start), rotation_of(p.goal), p.start_error,
+                                    z.tail<3>(), p.amplitude.tail<3>())};
 }
 
 bool is_pose(const Matrix4d& pose) noexcept {
-  return pose.allFinite() && pose.row(3) == Eigen::RowVector4d(0, 0, 0, 1) && detail::is_rotation(pose.topLeftCorner<3, 3>());
+  return pose.allFinite() && pose.row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
+         detail::is_rotation(pose.topLeftCorner<3, 3>());
 }
 
 PoseDmpParameters checked(const PoseDmpParameters& given) {
@@ -87,8 +89,8 @@ PoseLesson lesson_of(const PoseDemonstration& demonstration, const DmpOptions& o
   return lesson;
 }
 
-PoseDmpParameters means_of(const std::vector<PoseDemonstration>& demonstrations, const std::vector<PoseLesson>& lessons,
-                           const DmpOptions& options) {
+PoseDmpParameters means_of(const std::vector<PoseDemonstration>& demonstrations,
+                           const std::vector<PoseLesson>& lessons, const DmpOptions& options) {
   PoseDmpParameters mean;
   mean.options = options;
   mean.duration = 0.0;
@@ -110,7 +112,8 @@ PoseDmpParameters means_of(const std::vector<PoseDemonstration>& demonstrations,
   mean.start_twist /= mean.duration;
   mean.start = pose_of(detail::mean_rotation(starts), start);
   mean.goal = pose_of(detail::mean_rotation(goals), goal);
-  const Quaterniond turn = Quaterniond(rotation_of(mean.goal)) * Quaterniond(rotation_of(mean.start)).conjugate();
+  const Quaterniond turn =
+      Quaterniond(rotation_of(mean.goal)) * Quaterniond(rotation_of(mean.start)).conjugate();
   mean.start_error = options.log_branch == LogBranch::lifted
                          ? so3::lifted_log(turn, lessons[0].orientation.start_error)
                          : so3::log(turn);
@@ -137,7 +140,8 @@ PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
   const DmpOptions resolved = detail::resolved(options);
   std::vector<PoseLesson> lessons;
-  for (const PoseDemonstration& demonstration : demonstrations) lessons.push_back(lesson_of(demonstration, resolved));
+  for (const PoseDemonstration& demonstration : demonstrations)
+    lessons.push_back(lesson_of(demonstration, resolved));
   PoseDmpParameters parameters = means_of(demonstrations, lessons, resolved);
   const Vector3d way = position_of(parameters.goal) - position_of(parameters.start);
   std::vector<ForcingTarget> targets;
@@ -161,13 +165,20 @@ PoseDmp::PoseDmp(const PoseDmpParameters& parameters) {
 const PoseDmpParameters& PoseDmp::parameters() const noexcept { return data_->parameters; }
 const ForcingTerm& PoseDmp::forcing() const noexcept { return data_->forcing; }
 
-PoseTrajectory PoseDmp::rollout(const std::optional<Matrix4d>& goal, std::optional<double> duration, double dt) const {
+PoseTrajectory PoseDmp::rollout(const std::optional<Matrix4d>& goal, std::optional<double> duration,
+                                double dt) const {
   if (duration) detail::require_duration(*duration);
-  return rollout_at(detail::rollout_times(duration.value_or(this->duration()), dt), goal, duration);
+  return roll_out(detail::every(dt, duration.value_or(this->duration())), goal, duration);
 }
 
 PoseTrajectory PoseDmp::rollout_at(const Eigen::VectorXd& times, const std::optional<Matrix4d>& goal,
                                    std::optional<double> duration) const {
+  return roll_out({times, 0.0}, goal, duration);
+}
+
+PoseTrajectory PoseDmp::roll_out(const detail::Timetable& timetable, const std::optional<Matrix4d>& goal,
+                                 std::optional<double> duration) const {
+  const Eigen::VectorXd& times = timetable.times;
   PoseRun run(*this);
   auto& runner = run.state_->runner;
   if (duration) {
@@ -182,7 +193,7 @@ PoseTrajectory PoseDmp::rollout_at(const Eigen::VectorXd& times, const std::opti
   runner.publish();
   PoseTrajectory result{times, {}, RowMatrix(times.size(), 6)};
   result.pose.reserve(static_cast<std::size_t>(times.size()));
-  detail::roll_out(runner, times, [&](Index k) {
+  detail::roll_out(runner, timetable, [&](Index k) {
     result.pose.push_back(run.pose());
     result.twist.row(k) = run.twist();
   });
@@ -235,12 +246,15 @@ void PoseRun::reset() noexcept {
 Matrix4d PoseRun::pose() const noexcept { return pose_of(rotation(), position()); }
 Vector3d PoseRun::position() const noexcept { return state_->runner.motion().position.position(); }
 Matrix3d PoseRun::rotation() const noexcept { return quaternion().toRotationMatrix(); }
-const Quaterniond& PoseRun::quaternion() const noexcept { return state_->runner.motion().orientation.rotation(); }
+const Quaterniond& PoseRun::quaternion() const noexcept {
+  return state_->runner.motion().orientation.rotation();
+}
 Twist PoseRun::twist() const noexcept {
   return stacked(state_->runner.motion().position.velocity(), state_->runner.motion().orientation.velocity());
 }
 Twist PoseRun::acceleration() const noexcept {
-  return stacked(state_->runner.motion().position.acceleration(), state_->runner.motion().orientation.acceleration());
+  return stacked(state_->runner.motion().position.acceleration(),
+                 state_->runner.motion().orientation.acceleration());
 }
 Matrix4d PoseRun::goal() const noexcept {
   const PoseMotion& motion = state_->runner.motion();

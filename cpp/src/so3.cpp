@@ -21,8 +21,7 @@ Quaterniond shepperd(const Matrix3d& r) noexcept {
   const double trace = r.trace();
   int pivot = 0;
   const double largest = r.diagonal().maxCoeff(&pivot);
-  if (trace >= largest)
-    return {1.0 + trace, r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)};
+  if (trace >= largest) return {1.0 + trace, r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)};
   const int j = (pivot + 1) % 3;
   const int k = (pivot + 2) % 3;
   Vector3d v;
@@ -32,7 +31,8 @@ Quaterniond shepperd(const Matrix3d& r) noexcept {
   return {r(k, j) - r(j, k), v[0], v[1], v[2]};
 }
 
-/// True if q and -q are told apart by making w positive, or, at an angle of pi, the first component of the axis.
+/// True if q and -q are told apart by making w positive, or, at an angle of pi, the first component of the
+/// axis.
 bool points_down(const Quaterniond& q) noexcept {
   if (q.w() != 0.0) return q.w() < 0.0;
   for (int i = 0; i < 3; ++i)
@@ -47,9 +47,10 @@ struct Convention {
 };
 
 [[noreturn]] void refuse_convention(const std::string& convention) {
-  throw InvalidArgument("convention: '" + convention +
-                        "' is unknown, expected three axes such as \"ZYX\" (moving axes) or \"xyz\" (fixed axes), "
-                        "no two neighbours equal, or \"source\".");
+  throw InvalidArgument(
+      "convention: '" + convention +
+      "' is unknown, expected three axes such as \"ZYX\" (moving axes) or \"xyz\" (fixed axes), "
+      "no two neighbours equal, or \"source\".");
 }
 
 Convention parse(const std::string& convention) {
@@ -66,7 +67,9 @@ Convention parse(const std::string& convention) {
   return parsed;
 }
 
-Matrix3d about(int axis, double angle) { return Eigen::AngleAxisd(angle, Vector3d::Unit(axis)).toRotationMatrix(); }
+Matrix3d about(int axis, double angle) {
+  return Eigen::AngleAxisd(angle, Vector3d::Unit(axis)).toRotationMatrix();
+}
 
 double wrapped(double angle) {
   if (angle > kPi) return angle - 2.0 * kPi;
@@ -190,7 +193,9 @@ Matrix3d left_jacobian_inverse(const Vector3d& v) noexcept {
   return Matrix3d::Identity() - 0.5 * k + c * k * k;
 }
 
-double distance(const Matrix3d& a, const Matrix3d& b) noexcept { return log(Matrix3d(a * b.transpose())).norm(); }
+double distance(const Matrix3d& a, const Matrix3d& b) noexcept {
+  return log(Matrix3d(a * b.transpose())).norm();
+}
 
 Matrix3d from_euler(const Vector3d& angles, const std::string& convention) {
   const Convention parsed = parse(convention);
@@ -210,17 +215,20 @@ Vector3d to_euler(const Matrix3d& r, const std::string& convention) {
 }
 
 void require_rotation(const Matrix3d& r, const std::string& name) {
-  if (!r.allFinite()) throw InvalidArgument(name + ": not finite, expected a rotation matrix. Remove or fill the gap.");
+  if (!r.allFinite())
+    throw InvalidArgument(name + ": not finite, expected a rotation matrix. Remove or fill the gap.");
   char number[32];
   const double determinant = r.determinant();
   std::snprintf(number, sizeof number, "%.3f", determinant);
   if (determinant < 0.0)
-    throw InvalidArgument(name + ": det(R) = " + number + ", expected +1 (a reflection). Check the axis order.");
+    throw InvalidArgument(name + ": det(R) = " + number +
+                          ", expected +1 (a reflection). Check the axis order.");
   const double defect = (r.transpose() * r - Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (defect > 1e-3) {
     std::snprintf(number, sizeof number, "%.3g", defect);
-    throw InvalidArgument(name + ": |R^T R - I| = " + number +
-                          ", expected at most 1e-3 (a rotation matrix). Orthonormalise it, or check its layout.");
+    throw InvalidArgument(
+        name + ": |R^T R - I| = " + number +
+        ", expected at most 1e-3 (a rotation matrix). Orthonormalise it, or check its layout.");
   }
 }
 

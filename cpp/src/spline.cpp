@@ -38,8 +38,9 @@ struct LocalBasis {
   }
 };
 
-/// Solves the banded system in place by elimination without pivoting, which is stable for a B-spline collocation
-/// matrix (totally positive: de Boor and Pinkus 1977). band(i, j - i + half) = A(i, j); b becomes the solution.
+/// Solves the banded system in place by elimination without pivoting, which is stable for a B-spline
+/// collocation matrix (totally positive: de Boor and Pinkus 1977). band(i, j - i + half) = A(i, j); b becomes
+/// the solution.
 void solve_banded(RowMatrix& band, RowMatrix& b, Index half) {
   const Index n = band.rows();
   for (Index i = 0; i < n; ++i) {
@@ -71,7 +72,8 @@ std::vector<double> not_a_knot(const Eigen::VectorXd& times, int degree) {
 }  // namespace
 
 Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values)
-    : degree_(static_cast<int>(std::min<Index>(kDegree, times.size() - 1))), knots_(not_a_knot(times, degree_)) {
+    : degree_(static_cast<int>(std::min<Index>(kDegree, times.size() - 1))),
+      knots_(not_a_knot(times, degree_)) {
   interpolate(times, values);
   differentiate();
 }
@@ -80,7 +82,8 @@ Index Spline::interval(double time) const noexcept {
   const auto first = knots_.begin() + degree_;
   const auto last = knots_.end() - degree_ - 1;
   const auto above = std::upper_bound(first, last, time);
-  return std::clamp<Index>(above - knots_.begin() - 1, degree_, static_cast<Index>(knots_.size()) - degree_ - 2);
+  return std::clamp<Index>(above - knots_.begin() - 1, degree_,
+                           static_cast<Index>(knots_.size()) - degree_ - 2);
 }
 
 void Spline::interpolate(const Eigen::VectorXd& times, const RowMatrix& values) {
@@ -111,7 +114,8 @@ void Spline::differentiate() {
 
 Spline::Samples Spline::sample(const Eigen::VectorXd& times) const {
   const Index n = times.size();
-  Samples samples{RowMatrix::Zero(n, dimension()), RowMatrix::Zero(n, dimension()), RowMatrix::Zero(n, dimension())};
+  Samples samples{RowMatrix::Zero(n, dimension()), RowMatrix::Zero(n, dimension()),
+                  RowMatrix::Zero(n, dimension())};
   std::array<RowMatrix*, 3> out{&samples.value, &samples.first, &samples.second};
   for (Index k = 0; k < n; ++k) {
     const Index at = interval(times[k]);

@@ -24,7 +24,8 @@ void require_squares(const Array& array, const std::string& name, py::ssize_t si
 template <int N>
 Eigen::Matrix<double, N, N> square(const Array& array, const std::string& name) {
   const std::string n = std::to_string(N);
-  if (array.ndim() != 2 || array.shape(0) != N || array.shape(1) != N) refuse(array, name, "(" + n + ", " + n + ")");
+  if (array.ndim() != 2 || array.shape(0) != N || array.shape(1) != N)
+    refuse(array, name, "(" + n + ", " + n + ")");
   return Eigen::Map<const Eigen::Matrix<double, N, N, Eigen::RowMajor>>(array.data());
 }
 

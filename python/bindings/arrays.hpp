@@ -1,9 +1,9 @@
 #pragma once
 // numpy in, numpy out: shapes are checked here, once, with errors that name the argument.
 
-#include <dmp/trajectory.hpp>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <dmp/trajectory.hpp>
 
 #include <Eigen/Core>
 #include <optional>
@@ -16,7 +16,8 @@ namespace py = pybind11;
 /// Anything numpy turns into float64. A type of its own, so that signatures read as array-likes.
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// (n), or (1,) ... a scalar is refused; throws InvalidArgument naming `name`, the shape and what was expected.
+/// (n), or (1,) ... a scalar is refused; throws InvalidArgument naming `name`, the shape and what was
+/// expected.
 Eigen::VectorXd to_vector(const Array& array, const std::string& name);
 /// (n x columns); a one-dimensional array of n values is taken as (n x 1) when columns is 1 or unknown (-1).
 RowMatrix to_matrix(const Array& array, const std::string& name, Eigen::Index columns = -1);

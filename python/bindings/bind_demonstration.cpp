@@ -1,5 +1,5 @@
-#include <dmp/demonstration.hpp>
 #include <pybind11/pybind11.h>
+#include <dmp/demonstration.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
@@ -9,44 +9,56 @@ namespace {
 
 void bind_trajectories(py::module_& m) {
   py::class_<Trajectory>(m, "Trajectory", "Positions over time: what Dmp.rollout returns.")
-      .def_property_readonly("time", [](const Trajectory& t) { return from_vector(t.time); }, "(T,) s")
-      .def_property_readonly("position", [](const Trajectory& t) { return from_matrix(t.position); }, "(T, d)")
-      .def_property_readonly("velocity", [](const Trajectory& t) { return from_matrix(t.velocity); }, "(T, d) per s")
-      .def_property_readonly("acceleration", [](const Trajectory& t) { return from_matrix(t.acceleration); },
-                             "(T, d) per s^2")
+      .def_property_readonly(
+          "time", [](const Trajectory& t) { return from_vector(t.time); }, "(T,) s")
+      .def_property_readonly(
+          "position", [](const Trajectory& t) { return from_matrix(t.position); }, "(T, d)")
+      .def_property_readonly(
+          "velocity", [](const Trajectory& t) { return from_matrix(t.velocity); }, "(T, d) per s")
+      .def_property_readonly(
+          "acceleration", [](const Trajectory& t) { return from_matrix(t.acceleration); }, "(T, d) per s^2")
       .def("__len__", [](const Trajectory& t) { return t.time.size(); });
 
   using O = OrientationTrajectory;
   py::class_<O>(m, "OrientationTrajectory", "Orientations over time: what OrientationDmp.rollout returns.")
-      .def_property_readonly("time", [](const O& t) { return from_vector(t.time); }, "(T,) s")
-      .def_property_readonly("rotation", [](const O& t) { return from_rotations(t.rotation); }, "(T, 3, 3) body -> world")
-      .def_property_readonly("angular_velocity", [](const O& t) { return from_matrix(t.angular_velocity); },
-                             "(T, 3) rad/s, world frame")
-      .def_property_readonly("angular_acceleration", [](const O& t) { return from_matrix(t.angular_acceleration); },
-                             "(T, 3) rad/s^2, world frame")
+      .def_property_readonly(
+          "time", [](const O& t) { return from_vector(t.time); }, "(T,) s")
+      .def_property_readonly(
+          "rotation", [](const O& t) { return from_rotations(t.rotation); }, "(T, 3, 3) body -> world")
+      .def_property_readonly(
+          "angular_velocity", [](const O& t) { return from_matrix(t.angular_velocity); },
+          "(T, 3) rad/s, world frame")
+      .def_property_readonly(
+          "angular_acceleration", [](const O& t) { return from_matrix(t.angular_acceleration); },
+          "(T, 3) rad/s^2, world frame")
       .def("__len__", [](const O& t) { return t.time.size(); });
 
   using P = PoseTrajectory;
   py::class_<P>(m, "PoseTrajectory", "Poses over time: what PoseDmp.rollout returns.")
-      .def_property_readonly("time", [](const P& t) { return from_vector(t.time); }, "(T,) s")
-      .def_property_readonly("pose", [](const P& t) { return from_poses(t.pose); }, "(T, 4, 4) [R p; 0 1], body -> world")
-      .def_property_readonly("position",
-                             [](const P& t) {
-                               RowMatrix position(t.time.size(), 3);
-                               for (Eigen::Index k = 0; k < position.rows(); ++k)
-                                 position.row(k) = t.pose[static_cast<std::size_t>(k)].topRightCorner<3, 1>();
-                               return from_matrix(position);
-                             },
-                             "(T, 3) m")
-      .def_property_readonly("rotation",
-                             [](const P& t) {
-                               Rotations rotations;
-                               for (const Eigen::Matrix4d& pose : t.pose) rotations.push_back(pose.topLeftCorner<3, 3>());
-                               return from_rotations(rotations);
-                             },
-                             "(T, 3, 3)")
-      .def_property_readonly("twist", [](const P& t) { return from_matrix(t.twist); },
-                             "(T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame")
+      .def_property_readonly(
+          "time", [](const P& t) { return from_vector(t.time); }, "(T,) s")
+      .def_property_readonly(
+          "pose", [](const P& t) { return from_poses(t.pose); }, "(T, 4, 4) [R p; 0 1], body -> world")
+      .def_property_readonly(
+          "position",
+          [](const P& t) {
+            RowMatrix position(t.time.size(), 3);
+            for (Eigen::Index k = 0; k < position.rows(); ++k)
+              position.row(k) = t.pose[static_cast<std::size_t>(k)].topRightCorner<3, 1>();
+            return from_matrix(position);
+          },
+          "(T, 3) m")
+      .def_property_readonly(
+          "rotation",
+          [](const P& t) {
+            Rotations rotations;
+            for (const Eigen::Matrix4d& pose : t.pose) rotations.push_back(pose.topLeftCorner<3, 3>());
+            return from_rotations(rotations);
+          },
+          "(T, 3, 3)")
+      .def_property_readonly(
+          "twist", [](const P& t) { return from_matrix(t.twist); },
+          "(T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame")
       .def("__len__", [](const P& t) { return t.time.size(); });
 }
 
@@ -57,7 +69,8 @@ void bind_orientation_demonstration(py::module_& m) {
              return O(to_vector(times, "times"), to_rotations(rotations, "rotations"));
            }),
            py::arg("times"), py::arg("rotations"),
-           "times (T,) s, strictly increasing; rotations (T, 3, 3) body -> world. Raises InvalidArgument, naming the "
+           "times (T,) s, strictly increasing; rotations (T, 3, 3) body -> world. Raises InvalidArgument, "
+           "naming the "
            "sample, for a reflection, a matrix not orthogonal to 1e-3, or neighbours more than pi/2 apart.")
       .def_static(
           "from_euler",
@@ -66,11 +79,16 @@ void bind_orientation_demonstration(py::module_& m) {
           },
           py::arg("times"), py::arg("angles"), py::arg("convention"),
           "times (T,) s; angles (T, 3) rad; convention as in so3.from_euler, such as \"ZYX\".")
-      .def_property_readonly("time", [](const O& d) { return from_vector(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly("rotation", [](const O& d) { return from_rotations(d.rotation()); }, "(T, 3, 3)")
+      .def_property_readonly(
+          "time", [](const O& d) { return from_vector(d.time()); }, "(T,) s, from 0")
+      .def_property_readonly(
+          "rotation", [](const O& d) { return from_rotations(d.rotation()); }, "(T, 3, 3)")
       .def_property_readonly("duration", &O::duration, "s")
-      .def("at", [](const O& d, const Array& times) { return d.at(to_vector(times, "times")); }, py::arg("times"),
-           "Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the start.")
+      .def(
+          "at", [](const O& d, const Array& times) { return d.at(to_vector(times, "times")); },
+          py::arg("times"),
+          "Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the "
+          "start.")
       .def("__len__", &O::size);
 }
 
@@ -78,18 +96,24 @@ void bind_orientation_demonstration(py::module_& m) {
 
 void bind_demonstration(py::module_& m) {
   bind_trajectories(m);
-  py::class_<Demonstration>(m, "Demonstration", "Positions over time as they were recorded, in any number of dimensions.")
+  py::class_<Demonstration>(m, "Demonstration",
+                            "Positions over time as they were recorded, in any number of dimensions.")
       .def(py::init([](const Array& times, const Array& positions) {
              return Demonstration(to_vector(times, "times"), to_matrix(positions, "positions"));
            }),
            py::arg("times"), py::arg("positions"),
-           "times (T,) s, strictly increasing; positions (T, d) or (T,), T >= 2. Raises InvalidArgument naming the sample.")
-      .def_property_readonly("time", [](const Demonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly("position", [](const Demonstration& d) { return from_matrix(d.position()); }, "(T, d)")
+           "times (T,) s, strictly increasing; positions (T, d) or (T,), T >= 2. Raises InvalidArgument "
+           "naming the sample.")
+      .def_property_readonly(
+          "time", [](const Demonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
+      .def_property_readonly(
+          "position", [](const Demonstration& d) { return from_matrix(d.position()); }, "(T, d)")
       .def_property_readonly("dimension", &Demonstration::dimension)
       .def_property_readonly("duration", &Demonstration::duration, "s")
-      .def("at", [](const Demonstration& d, const Array& times) { return d.at(to_vector(times, "times")); },
-           py::arg("times"), "Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.")
+      .def(
+          "at", [](const Demonstration& d, const Array& times) { return d.at(to_vector(times, "times")); },
+          py::arg("times"),
+          "Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.")
       .def("__len__", &Demonstration::size);
   bind_orientation_demonstration(m);
   py::class_<PoseDemonstration>(m, "PoseDemonstration", "Poses over time as they were recorded.")
@@ -97,10 +121,13 @@ void bind_demonstration(py::module_& m) {
              return PoseDemonstration(to_vector(times, "times"), to_poses(poses, "poses"));
            }),
            py::arg("times"), py::arg("poses"),
-           "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises InvalidArgument "
+           "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises "
+           "InvalidArgument "
            "naming the sample.")
-      .def_property_readonly("time", [](const PoseDemonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly("pose", [](const PoseDemonstration& d) { return from_poses(d.pose()); }, "(T, 4, 4)")
+      .def_property_readonly(
+          "time", [](const PoseDemonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
+      .def_property_readonly(
+          "pose", [](const PoseDemonstration& d) { return from_poses(d.pose()); }, "(T, 4, 4)")
       .def_property_readonly("position", &PoseDemonstration::position)
       .def_property_readonly("orientation", &PoseDemonstration::orientation)
       .def_property_readonly("duration", &PoseDemonstration::duration, "s")

@@ -1,5 +1,5 @@
-#include <dmp/dmp.hpp>
 #include <pybind11/native_enum.h>
+#include <dmp/dmp.hpp>
 
 #include "bind.hpp"
 #include "runs.hpp"
@@ -16,20 +16,25 @@ void bind_run(py::module_& m) {
   py::class_<Run> run(m, "Run", "One run of a Dmp, for one control loop.");
   run.def(py::init<const Dmp&>(), py::arg("dmp"));
   def_run(run);
-  run.def_property_readonly("position", [](const Run& r) { return from_vector(r.position()); }, "(d,)")
-      .def_property_readonly("velocity", [](const Run& r) { return from_vector(r.velocity()); }, "(d,) per s")
-      .def_property_readonly("acceleration", [](const Run& r) { return from_vector(r.acceleration()); }, "(d,) per s^2")
+  run.def_property_readonly(
+         "position", [](const Run& r) { return from_vector(r.position()); }, "(d,)")
+      .def_property_readonly(
+          "velocity", [](const Run& r) { return from_vector(r.velocity()); }, "(d,) per s")
+      .def_property_readonly(
+          "acceleration", [](const Run& r) { return from_vector(r.acceleration()); }, "(d,) per s^2")
       .def_property(
           "goal", [](const Run& r) { return from_vector(r.goal()); },
           [](Run& r, const Array& goal) {
-            require_accepted(r.set_goal(to_vector(goal, "goal")), "goal: wrong size or not finite; the old one stays.");
+            require_accepted(r.set_goal(to_vector(goal, "goal")),
+                             "goal: wrong size or not finite; the old one stays.");
           },
           "(d,) the goal to go to from now on, approached through the goal filter")
       .def(
           "start_from",
           [](Run& r, const Array& position, const Array& velocity) {
-            require_accepted(r.start_from(to_vector(position, "position"), to_vector(velocity, "velocity")),
-                             "start_from: position or velocity of the wrong size or not finite; nothing changed.");
+            require_accepted(
+                r.start_from(to_vector(position, "position"), to_vector(velocity, "velocity")),
+                "start_from: position or velocity of the wrong size or not finite; nothing changed.");
           },
           py::arg("position"), py::arg("velocity"), "Begins anew at position (d,) with velocity (d,) per s.");
 }
@@ -46,8 +51,10 @@ void bind_dmp(py::module_& m) {
   py::class_<Dmp> dmp(m, "Dmp", "A dynamic movement primitive for positions in R^d. Immutable.");
   def_model<Dmp, Demonstration>(dmp);
   dmp.def_property_readonly("dimension", &Dmp::dimension)
-      .def_property_readonly("start", [](const Dmp& d) { return from_vector(d.start()); }, "(d,)")
-      .def_property_readonly("goal", [](const Dmp& d) { return from_vector(d.goal()); }, "(d,)")
+      .def_property_readonly(
+          "start", [](const Dmp& d) { return from_vector(d.start()); }, "(d,)")
+      .def_property_readonly(
+          "goal", [](const Dmp& d) { return from_vector(d.goal()); }, "(d,)")
       .def(
           "rollout",
           [](const Dmp& d, const std::optional<Array>& goal, std::optional<double> duration, double dt) {
@@ -56,10 +63,12 @@ void bind_dmp(py::module_& m) {
             return d.rollout(target, duration, dt);
           },
           py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
-          "The motion from the demonstrated start to `goal` (d,) within `duration` s, at 0, dt, ... up to the duration.")
+          "The motion from the demonstrated start to `goal` (d,) within `duration` s, at 0, dt, ... up to "
+          "the duration.")
       .def(
           "rollout_at",
-          [](const Dmp& d, const Array& times, const std::optional<Array>& goal, std::optional<double> duration) {
+          [](const Dmp& d, const Array& times, const std::optional<Array>& goal,
+             std::optional<double> duration) {
             const auto target = optional_vector(goal, "goal");
             const Eigen::VectorXd moments = to_vector(times, "times");
             const py::gil_scoped_release release;

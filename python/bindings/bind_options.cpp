@@ -1,8 +1,8 @@
 #include "options.hpp"
 
-#include <dmp/error.hpp>
 #include <pybind11/native_enum.h>
 #include <pybind11/stl.h>
+#include <dmp/error.hpp>
 
 #include "bind.hpp"
 
@@ -11,7 +11,8 @@ namespace {
 
 /// An attribute that takes an enumerator or its name.
 template <class Enum>
-void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpOptions::*member, const char* doc) {
+void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpOptions::*member,
+                    const char* doc) {
   options.def_property(
       name, [member](const DmpOptions& o) { return o.*member; },
       [member, name](DmpOptions& o, const py::object& value) {
@@ -21,7 +22,8 @@ void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpO
         }
         const py::dict members = py::type::of(py::cast(Enum{})).attr("__members__");
         if (!members.contains(value))
-          throw InvalidArgument(std::string(name) + ": '" + value.cast<std::string>() + "' is unknown, expected one of " +
+          throw InvalidArgument(std::string(name) + ": '" + value.cast<std::string>() +
+                                "' is unknown, expected one of " +
                                 py::str(", ").attr("join")(py::list(members)).cast<std::string>() + ".");
         o.*member = py::object(members[value]).cast<Enum>();
       },
@@ -37,21 +39,25 @@ void bind_enums(py::module_& m) {
       .value("lwr", Regression::lwr)
       .value("ridge", Regression::ridge)
       .finalize();
-  py::native_enum<Scaling>(m, "Scaling", "enum.Enum", "By what the forcing term is multiplied when start and goal change.")
+  py::native_enum<Scaling>(m, "Scaling", "enum.Enum",
+                           "By what the forcing term is multiplied when start and goal change.")
       .value("none", Scaling::none)
       .value("per_axis", Scaling::per_axis)
       .value("per_axis_relative", Scaling::per_axis_relative)
       .value("rotation_dilation", Scaling::rotation_dilation)
       .finalize();
-  py::native_enum<OrientationForm>(m, "OrientationForm", "enum.Enum", "The equation of motion of orientations.")
+  py::native_enum<OrientationForm>(m, "OrientationForm", "enum.Enum",
+                                   "The equation of motion of orientations.")
       .value("ude", OrientationForm::ude)
       .value("log_linear", OrientationForm::log_linear)
       .finalize();
-  py::native_enum<LogBranch>(m, "LogBranch", "enum.Enum", "Log(Rg R^T) followed through pi, or the shortest rotation.")
+  py::native_enum<LogBranch>(m, "LogBranch", "enum.Enum",
+                             "Log(Rg R^T) followed through pi, or the shortest rotation.")
       .value("lifted", LogBranch::lifted)
       .value("principal", LogBranch::principal)
       .finalize();
-  py::native_enum<Derivatives>(m, "Derivatives", "enum.Enum", "Velocities and accelerations of a demonstration.")
+  py::native_enum<Derivatives>(m, "Derivatives", "enum.Enum",
+                               "Velocities and accelerations of a demonstration.")
       .value("interpolate", Derivatives::interpolate)
       .value("gradient", Derivatives::gradient)
       .finalize();
@@ -69,15 +75,18 @@ void set_fields(DmpOptions& options, const py::kwargs& fields) {
   py::object wrapped = py::cast(options);
   for (const auto& [key, value] : fields) {
     if (!py::hasattr(wrapped, key))
-      throw InvalidArgument("options: '" + key.cast<std::string>() + "' is unknown. See help(dmpcpp.DmpOptions).");
+      throw InvalidArgument("options: '" + key.cast<std::string>() +
+                            "' is unknown. See help(dmpcpp.DmpOptions).");
     try {
       py::setattr(wrapped, key, value);
     } catch (py::error_already_set& error) {
       if (!error.matches(PyExc_TypeError)) throw;
-      throw InvalidArgument("options." + key.cast<std::string>() + ": " + py::repr(value).cast<std::string>() +
+      throw InvalidArgument("options." + key.cast<std::string>() + ": " +
+                            py::repr(value).cast<std::string>() +
                             " is of the wrong type. See help(dmpcpp.DmpOptions).");
     } catch (const py::cast_error&) {
-      throw InvalidArgument("options." + key.cast<std::string>() + ": " + py::repr(value).cast<std::string>() +
+      throw InvalidArgument("options." + key.cast<std::string>() + ": " +
+                            py::repr(value).cast<std::string>() +
                             " is of the wrong type. See help(dmpcpp.DmpOptions).");
     }
   }
@@ -94,13 +103,14 @@ DmpOptions options_with(const std::optional<DmpOptions>& options, const py::kwar
 
 void bind_options(py::module_& m) {
   bind_enums(m);
-  py::class_<DmpOptions> options(m, "DmpOptions",
-                                 "Every choice there is in a Dmp, OrientationDmp or PoseDmp. The defaults reproduce.");
+  py::class_<DmpOptions> options(
+      m, "DmpOptions", "Every choice there is in a Dmp, OrientationDmp or PoseDmp. The defaults reproduce.");
   options
       .def(py::init([](const py::kwargs& fields) { return options_with(std::nullopt, fields); }),
            "The fields as keywords; enumerators also by name: DmpOptions(regression=\"ridge\").")
       .def_static("source", &DmpOptions::source,
-                  "The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended.")
+                  "The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and "
+                  "E7 mended.")
       .def_readwrite("basis_count", &DmpOptions::basis_count, "N, kernels")
       .def_readwrite("alpha", &DmpOptions::alpha, "spring and damper: tau zd = alpha (beta (g - y) - z) + f")
       .def_readwrite("beta", &DmpOptions::beta, "alpha / 4 unless given: critically damped")
@@ -108,17 +118,21 @@ void bind_options(py::module_& m) {
       .def_readwrite("orientation_beta", &DmpOptions::orientation_beta,
                      "beta unless given; orientation_alpha / 4 if only that is given")
       .def_readwrite("alpha_x", &DmpOptions::alpha_x, "decay of the phase variable")
-      .def_readwrite("overlap", &DmpOptions::overlap, "neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)")
+      .def_readwrite("overlap", &DmpOptions::overlap,
+                     "neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)")
       .def_readwrite("passes", &DmpOptions::passes, "of locally weighted regression; 1 is the textbook's")
       .def_readwrite("ridge", &DmpOptions::ridge, "times trace / N on the diagonal")
-      .def_readwrite("force_after_end", &DmpOptions::force_after_end, "the forcing term goes on after the duration")
-      .def_readwrite("goal_filter", &DmpOptions::goal_filter, "a new goal is approached by tau gd = goal_filter (g* - g)")
+      .def_readwrite("force_after_end", &DmpOptions::force_after_end,
+                     "the forcing term goes on after the duration")
+      .def_readwrite("goal_filter", &DmpOptions::goal_filter,
+                     "a new goal is approached by tau gd = goal_filter (g* - g)")
       .def_readwrite("duration_filter", &DmpOptions::duration_filter,
                      "s, time constant with which a new duration is approached");
   enum_attribute(options, "kernels", &DmpOptions::kernels, "a Kernels or its name");
   enum_attribute(options, "regression", &DmpOptions::regression, "a Regression or its name");
   enum_attribute(options, "scaling", &DmpOptions::scaling, "a Scaling or its name");
-  enum_attribute(options, "orientation_form", &DmpOptions::orientation_form, "an OrientationForm or its name");
+  enum_attribute(options, "orientation_form", &DmpOptions::orientation_form,
+                 "an OrientationForm or its name");
   enum_attribute(options, "log_branch", &DmpOptions::log_branch, "a LogBranch or its name");
   enum_attribute(options, "derivatives", &DmpOptions::derivatives, "a Derivatives or its name");
   enum_attribute(options, "start", &DmpOptions::start, "a Start or its name");

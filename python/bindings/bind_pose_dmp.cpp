@@ -16,17 +16,23 @@ void bind_run(py::module_& m) {
   py::class_<R> run(m, "PoseRun", "One run of a PoseDmp, for one control loop.");
   run.def(py::init<const PoseDmp&>(), py::arg("dmp"));
   def_run(run);
-  run.def_property_readonly("pose", [](const R& r) { return from_pose(r.pose()); }, "(4, 4) [R p; 0 1]")
-      .def_property_readonly("position", [](const R& r) { return from_vector(r.position()); }, "(3,) m")
-      .def_property_readonly("rotation", [](const R& r) { return from_rotation(r.rotation()); }, "(3, 3)")
-      .def_property_readonly("twist", [](const R& r) { return from_vector(r.twist()); },
-                             "(6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame")
-      .def_property_readonly("acceleration", [](const R& r) { return from_vector(r.acceleration()); },
-                             "(6,) m/s^2, rad/s^2, world frame")
+  run.def_property_readonly(
+         "pose", [](const R& r) { return from_pose(r.pose()); }, "(4, 4) [R p; 0 1]")
+      .def_property_readonly(
+          "position", [](const R& r) { return from_vector(r.position()); }, "(3,) m")
+      .def_property_readonly(
+          "rotation", [](const R& r) { return from_rotation(r.rotation()); }, "(3, 3)")
+      .def_property_readonly(
+          "twist", [](const R& r) { return from_vector(r.twist()); },
+          "(6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame")
+      .def_property_readonly(
+          "acceleration", [](const R& r) { return from_vector(r.acceleration()); },
+          "(6,) m/s^2, rad/s^2, world frame")
       .def_property(
           "goal", [](const R& r) { return from_pose(r.goal()); },
           [](R& r, const Array& goal) {
-            require_accepted(r.set_goal(to_pose(goal, "goal")), "goal: not [R p; 0 1] with a rotation R; the old one stays.");
+            require_accepted(r.set_goal(to_pose(goal, "goal")),
+                             "goal: not [R p; 0 1] with a rotation R; the old one stays.");
           },
           "(4, 4) the goal to go to from now on, approached through the goal filter")
       .def(
@@ -34,8 +40,9 @@ void bind_run(py::module_& m) {
           [](R& r, const Array& pose, const Array& twist) {
             const Eigen::VectorXd velocity = to_vector(twist, "twist");
             const bool fits = velocity.size() == 6;
-            require_accepted(fits ? r.start_from(to_pose(pose, "pose"), velocity) : Status::invalid_input,
-                             "start_from: no pose, or a twist that is not 6 finite numbers; nothing changed.");
+            require_accepted(
+                fits ? r.start_from(to_pose(pose, "pose"), velocity) : Status::invalid_input,
+                "start_from: no pose, or a twist that is not 6 finite numbers; nothing changed.");
           },
           py::arg("pose"), py::arg("twist"), "Begins anew at pose (4, 4) with twist (6,) m/s, rad/s.");
 }
@@ -43,11 +50,14 @@ void bind_run(py::module_& m) {
 }  // namespace
 
 void bind_pose_dmp(py::module_& m) {
-  py::class_<PoseDmp> dmp(m, "PoseDmp",
-                          "A dynamic movement primitive for poses [R p; 0 1], position and orientation in one phase. Immutable.");
+  py::class_<PoseDmp> dmp(
+      m, "PoseDmp",
+      "A dynamic movement primitive for poses [R p; 0 1], position and orientation in one phase. Immutable.");
   def_model<PoseDmp, PoseDemonstration>(dmp);
-  dmp.def_property_readonly("start", [](const PoseDmp& d) { return from_pose(d.start()); }, "(4, 4)")
-      .def_property_readonly("goal", [](const PoseDmp& d) { return from_pose(d.goal()); }, "(4, 4)")
+  dmp.def_property_readonly(
+         "start", [](const PoseDmp& d) { return from_pose(d.start()); }, "(4, 4)")
+      .def_property_readonly(
+          "goal", [](const PoseDmp& d) { return from_pose(d.goal()); }, "(4, 4)")
       .def(
           "rollout",
           [](const PoseDmp& d, const std::optional<Array>& goal, std::optional<double> duration, double dt) {
@@ -56,10 +66,12 @@ void bind_pose_dmp(py::module_& m) {
             return d.rollout(target, duration, dt);
           },
           py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
-          "The motion from the demonstrated start to `goal` (4, 4) within `duration` s, at 0, dt, ... up to the duration.")
+          "The motion from the demonstrated start to `goal` (4, 4) within `duration` s, at 0, dt, ... up to "
+          "the duration.")
       .def(
           "rollout_at",
-          [](const PoseDmp& d, const Array& times, const std::optional<Array>& goal, std::optional<double> duration) {
+          [](const PoseDmp& d, const Array& times, const std::optional<Array>& goal,
+             std::optional<double> duration) {
             const auto target = optional_pose(goal, "goal");
             const Eigen::VectorXd moments = to_vector(times, "times");
             const py::gil_scoped_release release;

@@ -4,7 +4,8 @@
 
 PYBIND11_MODULE(_core, m) {
   namespace py = pybind11;
-  m.doc() = "Dynamic movement primitives and inverse kinematics: the C++ libraries dmp::core and dmp::kinematics.";
+  m.doc() =
+      "Dynamic movement primitives and inverse kinematics: the C++ libraries dmp::core and dmp::kinematics.";
   m.attr("__version__") = DMP_VERSION;
   py::register_exception<dmp::InvalidArgument>(m, "InvalidArgument", PyExc_ValueError);
   py::register_exception<dmp::FileError>(m, "FileError", PyExc_OSError);

@@ -1,11 +1,11 @@
 #pragma once
 // What the bindings of the three kinds of model and of run have in common.
 
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 #include <dmp/error.hpp>
 #include <dmp/file.hpp>
 #include <dmp/status.hpp>
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
 
 #include <optional>
 #include <string>
@@ -25,12 +25,15 @@ inline void require_accepted(Status status, const char* message) {
 template <class Run>
 bool step(Run& run, double dt) {
   switch (run.step(dt)) {
-    case Status::running: return true;
-    case Status::finished: return false;
+    case Status::running:
+      return true;
+    case Status::finished:
+      return false;
     case Status::invalid_input:
       throw InvalidArgument("dt: " + std::to_string(dt) + ", expected a time in s from 0 to 100 durations.");
     default:
-      PyErr_SetString(PyExc_FloatingPointError, "step: the state is no longer finite; the last finite output is kept. Call reset().");
+      PyErr_SetString(PyExc_FloatingPointError,
+                      "step: the state is no longer finite; the last finite output is kept. Call reset().");
       throw py::error_already_set();
   }
 }
@@ -38,7 +41,8 @@ bool step(Run& run, double dt) {
 template <class Run>
 void def_run(py::class_<Run>& run) {
   run.def("step", &step<Run>, py::arg("dt"),
-          "Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when "
+          "Moves on by dt seconds. True while the motion runs, False when it has finished; raises "
+          "FloatingPointError when "
           "the state is not finite.")
       .def(
           "set_duration",
@@ -46,7 +50,8 @@ void def_run(py::class_<Run>& run) {
             require_accepted(r.set_duration(duration), "duration: expected a positive finite time in s.");
           },
           py::arg("duration"), "The duration in s of the whole motion from now on; the path stays the same.")
-      .def("reset", &Run::reset, "Begins anew at the demonstrated start, with the goal and duration that were set last.")
+      .def("reset", &Run::reset,
+           "Begins anew at the demonstrated start, with the goal and duration that were set last.")
       .def("__copy__", [](const Run& r) { return Run(r); })
       .def_property_readonly("time", &Run::time, "s since the start")
       .def_property_readonly("phase", &Run::phase, "0 at the start, 1 at the end")
@@ -61,17 +66,20 @@ void def_model(py::class_<Dmp>& model) {
   model
       .def_static(
           "fit",
-          [](const Demonstration& demonstration, const std::optional<DmpOptions>& options, const py::kwargs& fields) {
+          [](const Demonstration& demonstration, const std::optional<DmpOptions>& options,
+             const py::kwargs& fields) {
             const DmpOptions chosen = options_with(options, fields);
             const py::gil_scoped_release release;
             return Dmp::fit(demonstration, chosen);
           },
           py::arg("demonstration"), py::arg("options") = py::none(),
-          "Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be "
+          "Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its "
+          "fields may be "
           "given as keywords too: fit(demonstration, basis_count=50, regression=\"ridge\").")
       .def_static(
           "fit",
-          [](const Demonstrations& demonstrations, const std::optional<DmpOptions>& options, const py::kwargs& fields) {
+          [](const Demonstrations& demonstrations, const std::optional<DmpOptions>& options,
+             const py::kwargs& fields) {
             const DmpOptions chosen = options_with(options, fields);
             const py::gil_scoped_release release;
             return Dmp::fit(demonstrations, chosen);
@@ -79,16 +87,22 @@ void def_model(py::class_<Dmp>& model) {
           py::arg("demonstrations"), py::arg("options") = py::none())
       .def_property_readonly("options", &Dmp::options, "A copy: what the model was learned with.")
       .def_property_readonly("duration", &Dmp::duration, "tau of the demonstration, s")
-      .def_property_readonly("weights", [](const Dmp& d) { return from_matrix(d.parameters().weights); },
-                             "(N, dims) of the forcing term")
+      .def_property_readonly(
+          "weights", [](const Dmp& d) { return from_matrix(d.parameters().weights); },
+          "(N, dims) of the forcing term")
       .def(
-          "forcing", [](const Dmp& d, const Array& phase) { return from_matrix(d.forcing().evaluate(to_vector(phase, "phase"))); },
+          "forcing",
+          [](const Dmp& d, const Array& phase) {
+            return from_matrix(d.forcing().evaluate(to_vector(phase, "phase")));
+          },
           py::arg("phase"), "The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.")
-      .def("activations",
-           [](const Dmp& d, const Array& phase, bool normalised) {
-             return from_matrix(d.forcing().basis().activations(to_vector(phase, "phase"), normalised));
-           },
-           py::arg("phase"), py::arg("normalised") = false, "The kernels (T, N) at phases (T,); rows sum to 1 if normalised.")
+      .def(
+          "activations",
+          [](const Dmp& d, const Array& phase, bool normalised) {
+            return from_matrix(d.forcing().basis().activations(to_vector(phase, "phase"), normalised));
+          },
+          py::arg("phase"), py::arg("normalised") = false,
+          "The kernels (T, N) at phases (T,); rows sum to 1 if normalised.")
       .def(py::pickle([](const Dmp& d) { return to_json(Model(d)); },
                       [](const std::string& text) { return std::get<Dmp>(from_json(text)); }));
 }

@@ -1,1 +1,98 @@
 #include <doctest/doctest.h>
+#include <dmp/demonstration.hpp>
+#include <dmp/error.hpp>
+#include <dmp/so3.hpp>
+
+#include <cmath>
+
+using namespace dmp;
+
+namespace {
+Eigen::VectorXd grid(int count, double end) { return Eigen::VectorXd::LinSpaced(count, 0.0, end); }
+
+Rotations euler_path(const Eigen::VectorXd& t) {
+  Rotations rotations;
+  for (const double u : t)
+    rotations.push_back(so3::from_euler({.8 * std::sin(u), .5 * std::cos(u), .6 * u}, "ZYX"));
+  return rotations;
+}
+
+/// omega of that path, from the rates of the angles (docs/formulation.md, E10).
+Eigen::Vector3d euler_omega(double u) {
+  const Eigen::Matrix3d z = so3::from_euler({.8 * std::sin(u), 0, 0}, "ZYX");
+  const Eigen::Matrix3d zy = so3::from_euler({.8 * std::sin(u), .5 * std::cos(u), 0}, "ZYX");
+  return .8 * std::cos(u) * Eigen::Vector3d::UnitZ() - .5 * std::sin(u) * z * Eigen::Vector3d::UnitY() +
+         .6 * zy * Eigen::Vector3d::UnitX();
+}
+}  // namespace
+
+TEST_CASE("the source's path has the derivatives of its closed form") {
+  const Eigen::VectorXd t = grid(201, 1.0);
+  RowMatrix positions(201, 3);
+  for (int k = 0; k < 201; ++k) positions.row(k) << std::sin(10 * t[k]), std::cos(10 * t[k]), 400 * t[k];
+  const Trajectory samples = Demonstration(t, positions).at(t);
+  for (int k = 0; k < 201; ++k) {
+    CHECK(std::abs(samples.velocity(k, 0) - 10 * std::cos(10 * t[k])) < 1e-6);
+    CHECK(std::abs(samples.acceleration(k, 0) + 100 * std::sin(10 * t[k])) < 2e-3);
+    CHECK(std::abs(samples.velocity(k, 2) - 400) < 1e-9);
+  }
+}
+
+TEST_CASE("angular velocity and acceleration are those of the world frame") {
+  const Eigen::VectorXd t = grid(1001, 5.0);
+  const OrientationDemonstration demonstration(t, euler_path(t));
+  const OrientationTrajectory samples = demonstration.at(t);
+  for (int k = 0; k < 1001; k += 7) {
+    CHECK((samples.angular_velocity.row(k).transpose() - euler_omega(t[k])).norm() < 1e-8);
+    const Eigen::Vector3d acceleration = (euler_omega(t[k] + 1e-5) - euler_omega(t[k] - 1e-5)) / 2e-5;
+    CHECK((samples.angular_acceleration.row(k).transpose() - acceleration).norm() < 1e-5);
+    CHECK(so3::distance(samples.rotation[k], demonstration.rotation()[k]) < 1e-12);
+  }
+}
+
+TEST_CASE("times count from the first sample") {
+  const Demonstration demonstration(Eigen::Vector3d(100.0, 100.5, 101.0), RowMatrix::Ones(3, 2));
+  CHECK(demonstration.time()[0] == 0.0);
+  CHECK(demonstration.duration() == 1.0);
+}
+
+TEST_CASE("Euler angles over time make the orientations of their convention") {
+  const Eigen::VectorXd t = grid(50, 1.0);
+  RowMatrix angles(50, 3);
+  for (int k = 0; k < 50; ++k) angles.row(k) << .8 * std::sin(t[k]), .5 * std::cos(t[k]), .6 * t[k];
+  const auto demonstration = OrientationDemonstration::from_euler(t, angles, "ZYX");
+  CHECK(so3::distance(demonstration.rotation()[30], euler_path(t)[30]) < 1e-14);
+}
+
+TEST_CASE("poses are positions and orientations side by side") {
+  const Eigen::VectorXd t = grid(20, 1.0);
+  Poses poses;
+  for (int k = 0; k < 20; ++k) poses.push_back(pose_of(euler_path(t)[k], {t[k], 2.0, -t[k]}));
+  const PoseDemonstration demonstration(t, poses);
+  for (int k = 0; k < 20; ++k) CHECK((demonstration.pose()[k] - poses[k]).cwiseAbs().maxCoeff() < 1e-14);
+}
+
+TEST_CASE("what is no demonstration is refused, with the sample named") {
+  const Eigen::VectorXd t = grid(4, 1.0);
+  RowMatrix y = RowMatrix::Ones(4, 2);
+  CHECK_THROWS_WITH_AS(Demonstration(grid(3, 1.0), y), doctest::Contains("times: 3 of them"),
+                       InvalidArgument);
+  CHECK_THROWS_WITH_AS(Demonstration(Eigen::Vector4d(0, 1, 1, 2), y),
+                       doctest::Contains("times[2]: 1 s after 1 s"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(Demonstration(Eigen::Vector4d(0, 1, NAN, 2), y), doctest::Contains("times[2]"),
+                       InvalidArgument);
+  CHECK_THROWS_AS(Demonstration(Eigen::VectorXd::Zero(1), RowMatrix::Zero(1, 1)), InvalidArgument);
+  y(2, 1) = INFINITY;
+  CHECK_THROWS_WITH_AS(Demonstration(t, y), doctest::Contains("positions[2, 1]: inf"), InvalidArgument);
+  Rotations rotations(4, Eigen::Matrix3d::Identity());
+  rotations[3] = so3::exp({2.0, 0, 0});
+  CHECK_THROWS_WITH_AS(OrientationDemonstration(t, rotations), doctest::Contains("rotations[3]: 114.592 deg"),
+                       InvalidArgument);
+  rotations[3] = -Eigen::Matrix3d::Identity();
+  CHECK_THROWS_WITH_AS(OrientationDemonstration(t, rotations), doctest::Contains("a reflection"),
+                       InvalidArgument);
+  Poses poses(4, Eigen::Matrix4d::Identity());
+  poses[1](3, 0) = 1.0;
+  CHECK_THROWS_WITH_AS(PoseDemonstration(t, poses), doctest::Contains("poses[1]: its last row"),
+                       InvalidArgument);
+}

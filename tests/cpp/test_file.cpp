@@ -1,1 +1,90 @@
 #include <doctest/doctest.h>
+#include <dmp/error.hpp>
+#include <dmp/file.hpp>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "motions.hpp"
+
+using namespace dmp;
+using namespace motions;
+
+namespace {
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+struct Folder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("dmp-test-" + std::to_string(::getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+}  // namespace
+
+TEST_CASE("every kind of model comes back bit for bit") {
+  DmpOptions options;
+  options.regression = Regression::ridge;
+  options.scaling = Scaling::rotation_dilation;
+  options.orientation_form = OrientationForm::log_linear;
+  const Dmp dmp = Dmp::fit(reach(100, 1.0 / 3), options);
+  const OrientationDmp orientation = OrientationDmp::fit(rotation(100, 1.0, 3.0), options);
+  const PoseDmp both = PoseDmp::fit(pose(100, 1.0), options);
+  CHECK(std::get<Dmp>(from_json(to_json(dmp))).parameters().weights == dmp.parameters().weights);
+  CHECK(std::get<Dmp>(from_json(to_json(dmp))).duration() == dmp.duration());
+  CHECK(std::get<Dmp>(from_json(to_json(dmp))).options().scaling == Scaling::rotation_dilation);
+  CHECK(to_json(from_json(to_json(orientation))) == to_json(orientation));
+  CHECK(to_json(from_json(to_json(both))) == to_json(both));
+  const PoseDmp back = std::get<PoseDmp>(from_json(to_json(both)));
+  CHECK(back.rollout({}, {}, .01).pose == both.rollout({}, {}, .01).pose);
+}
+
+TEST_CASE("a file is written whole or not at all") {
+  const Folder folder;
+  const std::string path = folder.path / "reach.json";
+  const Dmp dmp = Dmp::fit(reach(100, 1.0));
+  save(dmp, path);
+  CHECK(load_dmp(path).parameters().weights == dmp.parameters().weights);
+  CHECK_THROWS_WITH_AS(load_pose_dmp(path), doctest::Contains("expected a PoseDmp"), InvalidArgument);
+  CHECK_THROWS_AS(save(dmp, folder.path / "no" / "such.json"), FileError);
+  CHECK_THROWS_AS(load(folder.path / "missing.json"), FileError);
+  CHECK_THROWS_AS(load(folder.path), FileError);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path)) files += entry.exists() ? 1 : 0;
+  CHECK(files == 1);
+}
+
+TEST_CASE("what is no model of this version is refused with the place") {
+  const std::string text = to_json(Dmp::fit(reach(100, 1.0)));
+  const auto refused = [](const std::string& bad, const char* reason) {
+    CHECK_THROWS_WITH_AS(from_json(bad), doctest::Contains(reason), InvalidArgument);
+  };
+  refused("", "not readable as JSON");
+  refused("[]", "expected an object");
+  refused("{}", "'format' is missing");
+  refused(replaced(text, "\"dmpcpp\"", "\"other\""), "format");
+  refused(replaced(text, "\"version\": 1", "\"version\": 2"), "newer dmpcpp");
+  refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": \"mp\""), "'mp' is unknown");
+  refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": \"dmp\", \"kind\": \"dmp\""), "stands twice");
+  refused(replaced(text, "\"lwr\"", "\"gpr\""),
+          "options.regression: 'gpr' is unknown, expected one of lwr, ridge");
+  refused(replaced(text, "\"alpha\": 25.0", "\"alpha\": \"25\""), "options.alpha: expected a number");
+  refused(replaced(text, "\"alpha\": 25.0", "\"alpha\": -1"), "options.alpha");
+  refused(replaced(text, "\"basis_count\": 100", "\"basis_count\": 99"), "weights: 100 x 3, expected 99 x 3");
+  refused(replaced(text, "\"basis_count\": 100", "\"basis_count\": 1e300"), "basis_count");
+  refused(replaced(text, "\"duration\": 1.0", "\"duration\": 0"), "duration");
+  refused(replaced(text, "\"duration\": 1.0", "\"duration\": 1e999"), "JSON");
+  refused(std::string(100000, '['), "nested deeper");
+}
+
+TEST_CASE("keys that this version does not know are passed over") {
+  const std::string text = to_json(Dmp::fit(reach(100, 1.0)));
+  const Model model = from_json(replaced(text, "\"kind\"", "\"comment\": {\"by\": \"hand\"}, \"kind\""));
+  CHECK(to_json(model) == text);
+}

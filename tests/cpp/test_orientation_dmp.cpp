@@ -1,1 +1,152 @@
 #include <doctest/doctest.h>
+#include <dmp/error.hpp>
+
+#include "motions.hpp"
+
+using namespace dmp;
+using namespace motions;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+OrientationDmp unforced(const Vector3d& goal, OrientationForm form) {
+  OrientationDmpParameters p;
+  p.options.basis_count = 5;
+  p.options.orientation_form = form;
+  p.goal = so3::exp(goal);
+  p.start_error = goal;
+  p.weights = RowMatrix::Zero(5, 3);
+  return OrientationDmp(p);
+}
+
+AngleErrors reproduction(const OrientationDemonstration& demonstration, const DmpOptions& options) {
+  return angles(OrientationDmp::fit(demonstration, options).rollout_at(demonstration.time()).rotation,
+                demonstration.rotation());
+}
+
+const double kDegree = M_PI / 180;
+}  // namespace
+
+TEST_CASE("about a fixed axis the spring alone follows its closed form, in both forms of the equation") {
+  const Vector3d axis = Vector3d(1, 2, 2) / 3;
+  for (const auto form : {OrientationForm::ude, OrientationForm::log_linear}) {
+    const auto rollout = unforced(2 * axis, form).rollout_at(Eigen::Vector2d(.1, .5));
+    const double tolerance = form == OrientationForm::ude ? 1e-6 : 1e-13;
+    CHECK((so3::log(rollout.rotation[0]) - .71072841412914455 * axis).norm() < tolerance);
+    CHECK((so3::log(rollout.rotation[1]) - 1.9720084150246982 * axis).norm() < tolerance);
+  }
+}
+
+TEST_CASE("the Euler path is reproduced through pi, with few kernels too") {
+  DmpOptions ridge;
+  ridge.regression = Regression::ridge;
+  CHECK(reproduction(rotation(1000, 4.995, 3.0), {}).rmse < .0005 * kDegree);
+  CHECK(reproduction(rotation(1000, 4.995, 3.0), ridge).rmse < 1e-5 * kDegree);
+  CHECK(reproduction(rotation(1000, 4.995, 4.995), {}).rmse < .001 * kDegree);
+  DmpOptions fifty;
+  fifty.basis_count = 50;
+  CHECK(reproduction(rotation(1000, 4.995, 4.995), fifty).rmse < .01 * kDegree);
+  DmpOptions log_linear;
+  log_linear.orientation_form = OrientationForm::log_linear;
+  CHECK(reproduction(rotation(1000, 4.995, 4.995), log_linear).rmse < .001 * kDegree);
+}
+
+TEST_CASE("the shortest logarithm jumps on the way through pi: why the branch is followed") {
+  DmpOptions principal;
+  principal.log_branch = LogBranch::principal;
+  const double jumped = reproduction(rotation(1000, 10.0, 10.0), principal).largest;
+  const double followed = reproduction(rotation(1000, 10.0, 10.0), {}).largest;
+  MESSAGE("shortest: " << jumped << " rad, followed: " << followed << " rad");
+  CHECK(jumped > 10 * followed);
+}
+
+TEST_CASE("a reach that turns by exactly pi is reproduced") {
+  const Eigen::VectorXd t = grid(1000, 4.995);
+  for (const double turn : {M_PI, 1.2 * M_PI}) {
+    Rotations r;
+    for (const double u : t)
+      r.push_back(so3::exp(turn * minimum_jerk(u / 4.995) * Vector3d(1, 2, 3).normalized()));
+    CHECK(reproduction({t, r}, {}).rmse < .01 * kDegree);
+  }
+}
+
+TEST_CASE("rotations stay rotations and the step is of fourth order") {
+  const OrientationDmp dmp = OrientationDmp::fit(rotation(1000, 1.0, 3.0));
+  const auto end = [&](double dt) { return dmp.rollout({}, {}, dt).rotation; };
+  const Rotations fine = end(1e-4);
+  const double coarse = so3::distance(end(.004)[125], fine[5000]);
+  const double half = so3::distance(end(.002)[250], fine[5000]);
+  CHECK(coarse / half > 10.0);
+  for (const Matrix3d& r : fine)
+    CHECK((r * r.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-14);
+}
+
+TEST_CASE("a rotation of the body frame from the right goes through unchanged") {
+  const OrientationDemonstration here = rotation(300, 2.0, 3.0);
+  const Matrix3d q = so3::exp({.4, -1.0, .7});
+  Rotations turned;
+  for (const Matrix3d& r : here.rotation()) turned.push_back(r * q);
+  const Rotations a = OrientationDmp::fit(here).rollout({}, {}, .01).rotation;
+  const Rotations b = OrientationDmp::fit({here.time(), turned}).rollout({}, {}, .01).rotation;
+  for (std::size_t k = 0; k < a.size(); ++k) CHECK(so3::distance(a[k] * q, b[k]) < 1e-11);
+}
+
+TEST_CASE("a run follows the rollout; angular velocity and acceleration are derivatives in the world frame") {
+  for (const auto form : {OrientationForm::ude, OrientationForm::log_linear}) {
+    DmpOptions options;
+    options.orientation_form = form;
+    const OrientationDmp dmp = OrientationDmp::fit(rotation(400, 2.0, 3.0), options);
+    OrientationRun run(dmp);
+    const double h = 1e-6;
+    for (int i = 0; i < 19; ++i) {
+      run.step(.1);
+      OrientationRun next = run;
+      next.step(h);
+      const Vector3d velocity = so3::log(Matrix3d(next.rotation() * run.rotation().transpose())) / h;
+      CHECK((velocity - run.angular_velocity()).norm() < 1e-4);
+      CHECK(((next.angular_velocity() - run.angular_velocity()) / h - run.angular_acceleration()).norm() <
+            1e-2);
+    }
+    CHECK(run.step(.1) == Status::finished);
+    CHECK(so3::distance(run.rotation(), dmp.goal()) < 1e-3);
+  }
+}
+
+TEST_CASE("a goal that changes on the way is reached, in both forms") {
+  for (const auto form : {OrientationForm::ude, OrientationForm::log_linear}) {
+    DmpOptions options;
+    options.orientation_form = form;
+    const OrientationDmp dmp = OrientationDmp::fit(rotation(400, 2.0, 3.0), options);
+    OrientationRun run(dmp);
+    for (int i = 0; i < 500; ++i) run.step(1e-3);
+    const Vector3d before = run.angular_velocity();
+    const Matrix3d goal = so3::exp({.3, .2, -.4}) * dmp.goal();
+    CHECK(run.set_goal(goal) == Status::running);
+    run.step(1e-3);
+    CHECK((run.angular_velocity() - before).norm() < .05);
+    for (int i = 0; i < 4500; ++i) run.step(1e-3);
+    CHECK(so3::distance(run.rotation(), goal) < 1e-6);
+    CHECK(so3::distance(run.goal(), goal) < 1e-12);
+  }
+}
+
+TEST_CASE("what is no rotation is refused and changes nothing") {
+  const OrientationDmp dmp = OrientationDmp::fit(rotation(100, 1.0, 1.0));
+  OrientationRun run(dmp);
+  run.step(.3);
+  const Matrix3d now = run.rotation();
+  CHECK(run.set_goal(2 * Matrix3d::Identity()) == Status::invalid_input);
+  CHECK(run.set_goal(-Matrix3d::Identity()) == Status::invalid_input);
+  CHECK(run.start_from(Matrix3d::Identity(), Vector3d(NAN, 0, 0)) == Status::invalid_input);
+  CHECK(run.rotation() == now);
+  CHECK_THROWS_AS(dmp.rollout(Matrix3d(2 * Matrix3d::Identity())), InvalidArgument);
+  CHECK_THROWS_AS(OrientationDmp::fit(std::vector<OrientationDemonstration>{}), InvalidArgument);
+}
+
+TEST_CASE("several demonstrations are learned together; start and goal are means on SO(3)") {
+  const OrientationDmp dmp = OrientationDmp::fit(
+      std::vector<OrientationDemonstration>{rotation(200, 1.0, 3.0), rotation(500, 2.0, 3.0)});
+  CHECK(dmp.duration() == doctest::Approx(1.5));
+  const OrientationDemonstration truth = rotation(300, 1.5, 3.0);
+  CHECK(angles(dmp.rollout_at(truth.time()).rotation, truth.rotation()).largest < .01 * kDegree);
+}

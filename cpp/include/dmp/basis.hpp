@@ -11,9 +11,10 @@ namespace dmp {
 
 /// Gaussian kernels over the phase. Kernel i stands at s_i = i / (N - 1), c_i = exp(-alpha_x s_i).
 ///
-/// * Equal in time: psi_i = exp(-overlap ((s - s_i)(N - 1))^2), Gaussians in s = -ln(x) / alpha_x. They all have
-///   one width in time, so only the kernels around s are not zero (below 1e-17 they count as zero), and they are
-///   all found with one exponential: psi_{k+1} / psi_k is a table times a power.
+/// * Equal in time: psi_i = exp(-overlap ((s - s_i)(N - 1))^2), Gaussians in s = -ln(x) / alpha_x. They all
+/// have
+///   one width in time, so only the kernels around s are not zero (below 1e-17 they count as zero), and they
+///   are all found with one exponential: psi_{k+1} / psi_k is a table times a power.
 /// * Source: psi_i = exp(-h_i (x - c_i)^2), h_i = N^1.5 / (alpha_x c_i), Gaussians in x (DeWolf's rule).
 class DMP_EXPORT GaussianBasis {
  public:
@@ -23,7 +24,8 @@ class DMP_EXPORT GaussianBasis {
     int count;
   };
 
-  /// Throws InvalidArgument unless count >= 1, alpha_x > 0 and overlap > 0. Neighbours cross at exp(-overlap / 4).
+  /// Throws InvalidArgument unless count >= 1, alpha_x > 0 and overlap > 0. Neighbours cross at exp(-overlap
+  /// / 4).
   static GaussianBasis equal_in_time(int count, double alpha_x, double overlap);
   static GaussianBasis source(int count, double alpha_x);
 
@@ -34,7 +36,8 @@ class DMP_EXPORT GaussianBasis {
   /// The most kernels that a window can hold.
   int window_capacity() const noexcept { return capacity_; }
 
-  /// psi up to a common factor, one of them about 1: what a normalised sum needs. `psi` has window_capacity() places.
+  /// psi up to a common factor, one of them about 1: what a normalised sum needs. `psi` has window_capacity()
+  /// places.
   Window proportional(double s, double* psi) const noexcept DMP_REALTIME;
   /// psi itself: the weights of locally weighted regression.
   Window activations(double s, double* psi) const noexcept DMP_REALTIME;
@@ -49,8 +52,8 @@ class DMP_EXPORT GaussianBasis {
 
   int count_;
   double alpha_x_;
-  double overlap_ = 0.0;        // 0: the source's kernels
-  int reach_ = 0;               // kernels to either side that count
+  double overlap_ = 0.0;  // 0: the source's kernels
+  int reach_ = 0;         // kernels to either side that count
   int capacity_ = 0;
   std::vector<double> table_;   // exp(-overlap k^2), k = 0 .. reach
   std::vector<double> center_;  // the source's c_i

@@ -16,8 +16,8 @@ namespace dmp {
 class DMP_EXPORT Demonstration {
  public:
   /// times (T) s, strictly increasing, uniform or not; positions (T x dims), T >= 2.
-  /// Throws InvalidArgument, naming the sample, for wrong sizes, numbers that are not finite, time that stands still
-  /// or runs backwards.
+  /// Throws InvalidArgument, naming the sample, for wrong sizes, numbers that are not finite, time that
+  /// stands still or runs backwards.
   Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions);
 
   Eigen::Index size() const noexcept { return time_.size(); }
@@ -35,13 +35,13 @@ class DMP_EXPORT Demonstration {
   Spline spline_;
 };
 
-/// Orientations over time, with the angular velocities and accelerations (world frame) of the quintic spline through
-/// the sign-continuous quaternions. Total rotations beyond 2 pi are fine.
+/// Orientations over time, with the angular velocities and accelerations (world frame) of the quintic spline
+/// through the sign-continuous quaternions. Total rotations beyond 2 pi are fine.
 class DMP_EXPORT OrientationDemonstration {
  public:
-  /// times (T) s as above; rotations (T) body -> world. Throws InvalidArgument, naming the sample, for a matrix that
-  /// is no rotation (a reflection, not orthogonal to 1e-3) and for two samples more than pi/2 apart, between which
-  /// the way is not known.
+  /// times (T) s as above; rotations (T) body -> world. Throws InvalidArgument, naming the sample, for a
+  /// matrix that is no rotation (a reflection, not orthogonal to 1e-3) and for two samples more than pi/2
+  /// apart, between which the way is not known.
   OrientationDemonstration(const Eigen::VectorXd& times, const Rotations& rotations);
   /// angles (T x 3) rad; `convention` as in so3::from_euler.
   static OrientationDemonstration from_euler(const Eigen::VectorXd& times, const RowMatrix& angles,
@@ -68,9 +68,9 @@ class DMP_EXPORT PoseDemonstration {
   PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses);
 
   Eigen::Index size() const noexcept { return position_.size(); }
-  double duration() const noexcept { return position_.duration(); }            ///< s
-  const Eigen::VectorXd& time() const noexcept { return position_.time(); }    ///< (T) s, from 0
-  Poses pose() const;                                                          ///< (T)
+  double duration() const noexcept { return position_.duration(); }          ///< s
+  const Eigen::VectorXd& time() const noexcept { return position_.time(); }  ///< (T) s, from 0
+  Poses pose() const;                                                        ///< (T)
   const Demonstration& position() const noexcept { return position_; }
   const OrientationDemonstration& orientation() const noexcept { return orientation_; }
 

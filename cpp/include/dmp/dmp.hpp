@@ -15,6 +15,10 @@
 
 namespace dmp {
 
+namespace detail {
+struct Timetable;
+}
+
 /// All that a Dmp is: what a model file holds.
 struct DmpParameters {
   DmpOptions options;
@@ -26,17 +30,17 @@ struct DmpParameters {
   RowMatrix weights;               ///< (N x d) of the forcing term
 };
 
-/// A dynamic movement primitive for positions in R^d, learned from demonstrations. Immutable: share it between threads
-/// and give each its own Run.
+/// A dynamic movement primitive for positions in R^d, learned from demonstrations. Immutable: share it
+/// between threads and give each its own Run.
 ///
 ///   tau zd = alpha (beta (g - y) - z) + S f(x),   tau yd = z,   tau xd = -alpha_x x
 ///
 /// (Ijspeert et al. 2013, Neural Computation 25(2); tau is the duration in s; S after DmpOptions::scaling.)
 class DMP_EXPORT Dmp {
  public:
-  /// Learns from one demonstration, or from several together: each counts with its own start, goal and duration; the
-  /// model's are their means. Throws InvalidArgument for options outside their ranges, no demonstration, or
-  /// demonstrations of different dimensions.
+  /// Learns from one demonstration, or from several together: each counts with its own start, goal and
+  /// duration; the model's are their means. Throws InvalidArgument for options outside their ranges, no
+  /// demonstration, or demonstrations of different dimensions.
   static Dmp fit(const Demonstration& demonstration, const DmpOptions& options = {});
   static Dmp fit(const std::vector<Demonstration>& demonstrations, const DmpOptions& options = {});
   /// Throws InvalidArgument unless sizes agree and all numbers are finite.
@@ -45,15 +49,15 @@ class DMP_EXPORT Dmp {
   const DmpParameters& parameters() const noexcept;
   const DmpOptions& options() const noexcept { return parameters().options; }
   Eigen::Index dimension() const noexcept { return parameters().start.size(); }
-  double duration() const noexcept { return parameters().duration; }                ///< s
-  const Eigen::VectorXd& start() const noexcept { return parameters().start; }      ///< (d)
-  const Eigen::VectorXd& goal() const noexcept { return parameters().goal; }        ///< (d)
+  double duration() const noexcept { return parameters().duration; }            ///< s
+  const Eigen::VectorXd& start() const noexcept { return parameters().start; }  ///< (d)
+  const Eigen::VectorXd& goal() const noexcept { return parameters().goal; }    ///< (d)
   const ForcingTerm& forcing() const noexcept;
 
-  /// The motion from the demonstrated start to `goal` (d; the demonstrated one unless given) within `duration` (s; the
-  /// demonstrated one unless given), at 0, dt, ... up to the duration: floor(duration / dt + 1e-6) + 1 samples.
-  /// Throws InvalidArgument for a wrong size, a number that is not finite or not positive, more than 10^7 samples, or
-  /// a motion that does not stay finite.
+  /// The motion from the demonstrated start to `goal` (d; the demonstrated one unless given) within
+  /// `duration` (s; the demonstrated one unless given), at 0, dt, ... up to the duration: floor(duration / dt
+  /// + 1e-6) + 1 samples. Throws InvalidArgument for a wrong size, a number that is not finite or not
+  /// positive, more than 10^7 samples, or a motion that does not stay finite.
   Trajectory rollout(const std::optional<Eigen::VectorXd>& goal = {}, std::optional<double> duration = {},
                      double dt = 1e-3) const;
   /// The same at times (T) in s, increasing from 0 or later.
@@ -62,6 +66,9 @@ class DMP_EXPORT Dmp {
 
  private:
   friend class Run;
+  Trajectory roll_out(const detail::Timetable& timetable, const std::optional<Eigen::VectorXd>& goal,
+                      std::optional<double> duration) const;
+
   struct Data;
   std::shared_ptr<const Data> data_;
 };

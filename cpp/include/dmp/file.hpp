@@ -14,12 +14,13 @@ namespace dmp {
 using Model = std::variant<Dmp, OrientationDmp, PoseDmp>;
 
 DMP_EXPORT std::string to_json(const Model& model);
-/// Throws InvalidArgument, naming the place, for text that is no JSON, another format, a newer version, an unknown
-/// kind or option, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB or 10^6 numbers.
+/// Throws InvalidArgument, naming the place, for text that is no JSON, another format, a newer version, an
+/// unknown kind or option, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB or 10^6
+/// numbers.
 DMP_EXPORT Model from_json(const std::string& text);
 
-/// Writes a temporary file beside `path`, flushes it to disk and renames it: the file is there whole or not at all.
-/// Throws FileError.
+/// Writes a temporary file beside `path`, flushes it to disk and renames it: the file is there whole or not
+/// at all. Throws FileError.
 DMP_EXPORT void save(const Model& model, const std::string& path);
 /// Throws FileError if the file can not be read, InvalidArgument if it is no model.
 DMP_EXPORT Model load(const std::string& path);

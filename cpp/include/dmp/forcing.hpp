@@ -11,8 +11,8 @@
 
 namespace dmp {
 
-/// The forcing term f(s) = x (sum psi_i w_i) / (sum psi_i), x = exp(-alpha_x s), one row of weights per kernel
-/// (Ijspeert et al. 2013).
+/// The forcing term f(s) = x (sum psi_i w_i) / (sum psi_i), x = exp(-alpha_x s), one row of weights per
+/// kernel (Ijspeert et al. 2013).
 class DMP_EXPORT ForcingTerm {
  public:
   /// weights (N x dims). Throws InvalidArgument unless the rows match the basis and all are finite.
@@ -22,7 +22,8 @@ class DMP_EXPORT ForcingTerm {
   Eigen::Index dimension() const noexcept { return dimension_; }
   RowMatrix weights() const { return rows_.leftCols(dimension_); }
 
-  /// f (dims) at phase s; `psi` is scratch memory for basis().window_capacity() numbers, `f` has padded_dimension() places.
+  /// f (dims) at phase s; `psi` is scratch memory for basis().window_capacity() numbers, `f` has
+  /// padded_dimension() places.
   void evaluate(double s, double* psi, double* f) const noexcept DMP_REALTIME;
   Eigen::Index padded_dimension() const noexcept { return rows_.cols(); }
   /// (T x dims) at each phase s.
@@ -41,12 +42,13 @@ struct ForcingTarget {
   Eigen::VectorXd scale;  ///< (dims): value = scale f
 };
 
-/// The weights (N x dims) of one forcing term for all targets together. Throws InvalidArgument for an axis whose scale
-/// is zero while its target is not.
+/// The weights (N x dims) of one forcing term for all targets together. Throws InvalidArgument for an axis
+/// whose scale is zero while its target is not.
 ///
-/// Locally weighted regression solves, kernel by kernel, w_i = sum psi_i x r / sum psi_i x^2 and goes again over what
-/// is left, r = f - f(w): `passes` times, 1 being the textbook's; the passes converge to the least-squares fit. The data
-/// are read once: the passes run on the band matrix G_ij = sum x^2 psi_i psi_j / sum_k psi_k.
+/// Locally weighted regression solves, kernel by kernel, w_i = sum psi_i x r / sum psi_i x^2 and goes again
+/// over what is left, r = f - f(w): `passes` times, 1 being the textbook's; the passes converge to the
+/// least-squares fit. The data are read once: the passes run on the band matrix G_ij = sum x^2 psi_i psi_j /
+/// sum_k psi_k.
 DMP_EXPORT RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
                                  const DmpOptions& options);
 

@@ -9,8 +9,8 @@ namespace dmp {
 /// How the kernels lie over the phase; see GaussianBasis.
 enum class Kernels { equal_in_time, source };
 
-/// How the weights are found. Locally weighted regression (Schaal and Atkeson 1998; Ijspeert et al. 2013) with passes
-/// over what it left over, or one ridge regression over all kernels.
+/// How the weights are found. Locally weighted regression (Schaal and Atkeson 1998; Ijspeert et al. 2013)
+/// with passes over what it left over, or one ridge regression over all kernels.
 enum class Regression { lwr, ridge };
 
 /// By what the forcing term is multiplied when start and goal change.
@@ -18,7 +18,7 @@ enum class Scaling {
   none,               ///< nothing: the shape stays, the spring carries it to the goal
   per_axis,           ///< (g - y0), axis by axis (Ijspeert et al. 2013)
   per_axis_relative,  ///< (g - y0) / (g - y0) of the demonstration; an axis that did not move keeps 1
-  rotation_dilation   ///< the rotation and dilation of g - y0 against the demonstration's (Ginesi et al. 2021)
+  rotation_dilation  ///< the rotation and dilation of g - y0 against the demonstration's (Ginesi et al. 2021)
 };
 
 /// The equation of motion of orientations; see OrientationDmp.
@@ -30,7 +30,8 @@ enum class Start { demonstrated, rest };
 /// exact: the linear part exactly, the forcing term by its parabola over the step; fourth order on SO(3).
 enum class Integrator { exact, semi_implicit_euler };
 
-/// Velocities and accelerations of a demonstration: of its quintic spline, or second-order differences taken twice.
+/// Velocities and accelerations of a demonstration: of its quintic spline, or second-order differences taken
+/// twice.
 enum class Derivatives { interpolate, gradient };
 
 /// Log(Rg R^T): followed through pi and 2 pi, or the shortest rotation at every moment.
@@ -38,28 +39,29 @@ enum class LogBranch { lifted, principal };
 
 /// Every choice there is in a Dmp, OrientationDmp or PoseDmp. The defaults reproduce; change one to compare.
 struct DmpOptions {
-  int basis_count = 100;                       ///< N, kernels
-  double alpha = 25.0;                         ///< spring and damper: tau zd = alpha (beta (g - y) - z) + f
-  std::optional<double> beta;                  ///< alpha / 4 unless given: critically damped
-  std::optional<double> orientation_alpha;     ///< alpha unless given
-  std::optional<double> orientation_beta;      ///< beta unless given; orientation_alpha / 4 if only that is given
-  double alpha_x = 4.605170185988091;          ///< decay of the phase variable; ln 100: x = 0.01 at the end
+  int basis_count = 100;                    ///< N, kernels
+  double alpha = 25.0;                      ///< spring and damper: tau zd = alpha (beta (g - y) - z) + f
+  std::optional<double> beta;               ///< alpha / 4 unless given: critically damped
+  std::optional<double> orientation_alpha;  ///< alpha unless given
+  std::optional<double> orientation_beta;  ///< beta unless given; orientation_alpha / 4 if only that is given
+  double alpha_x = 4.605170185988091;      ///< decay of the phase variable; ln 100: x = 0.01 at the end
   Kernels kernels = Kernels::equal_in_time;
-  std::optional<double> overlap;               ///< neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)
+  std::optional<double> overlap;  ///< neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)
   Regression regression = Regression::lwr;
-  int passes = 10;                             ///< of locally weighted regression; 1 is the textbook's
-  double ridge = 1e-12;                        ///< times trace / N on the diagonal
+  int passes = 10;       ///< of locally weighted regression; 1 is the textbook's
+  double ridge = 1e-12;  ///< times trace / N on the diagonal
   Scaling scaling = Scaling::none;
   OrientationForm orientation_form = OrientationForm::ude;
   LogBranch log_branch = LogBranch::lifted;
   Derivatives derivatives = Derivatives::interpolate;
   Start start = Start::demonstrated;
   Integrator integrator = Integrator::exact;
-  bool force_after_end = false;                ///< the forcing term goes on after the duration
-  double goal_filter = 25.0;                   ///< alpha_g: a new goal is approached by tau gd = alpha_g (g* - g)
-  double duration_filter = 0.1;                ///< s, time constant with which a new duration is approached
+  bool force_after_end = false;  ///< the forcing term goes on after the duration
+  double goal_filter = 25.0;     ///< alpha_g: a new goal is approached by tau gd = alpha_g (g* - g)
+  double duration_filter = 0.1;  ///< s, time constant with which a new duration is approached
 
-  /// The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended: docs/formulation.md.
+  /// The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended:
+  /// docs/formulation.md.
   DMP_EXPORT static DmpOptions source();
 };
 

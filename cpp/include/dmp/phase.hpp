@@ -5,10 +5,10 @@
 
 namespace dmp {
 
-/// The canonical system: tau sd = 1 and tau xd = -alpha_x x, x = exp(-alpha_x s) (Ijspeert et al. 2013, Neural
-/// Computation 25(2), canonical system; tau is the duration in s). s runs from 0 to 1 over the motion and on
-/// beyond it. The duration may change at any time: it is then followed through a first-order filter, so that
-/// velocities do not jump, and the path y(s) is kept exactly.
+/// The canonical system: tau sd = 1 and tau xd = -alpha_x x, x = exp(-alpha_x s) (Ijspeert et al. 2013,
+/// Neural Computation 25(2), canonical system; tau is the duration in s). s runs from 0 to 1 over the motion
+/// and on beyond it. The duration may change at any time: it is then followed through a first-order filter,
+/// so that velocities do not jump, and the path y(s) is kept exactly.
 class DMP_EXPORT Phase {
  public:
   /// Throws InvalidArgument unless duration [s] and alpha_x are finite and positive.

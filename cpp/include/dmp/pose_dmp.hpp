@@ -15,17 +15,19 @@ namespace dmp {
 /// All that a PoseDmp is: what a model file holds.
 struct PoseDmpParameters {
   DmpOptions options;
-  double duration = 1.0;                                                  ///< s
-  Eigen::Matrix4d start = Eigen::Matrix4d::Identity();                    ///< [R0 p0; 0 1]
+  double duration = 1.0;                                ///< s
+  Eigen::Matrix4d start = Eigen::Matrix4d::Identity();  ///< [R0 p0; 0 1]
   Eigen::Matrix4d goal = Eigen::Matrix4d::Identity();
-  Eigen::Matrix<double, 6, 1> start_twist = Eigen::Matrix<double, 6, 1>::Zero();  ///< m/s, then rad/s, world frame
-  Eigen::Vector3d start_error = Eigen::Vector3d::Zero();                  ///< Log(Rg R0^T) on its branch, rad
-  Eigen::Matrix<double, 6, 1> amplitude = Eigen::Matrix<double, 6, 1>::Zero();    ///< ranges of p [m] and Log(Rg R^T) [rad]
-  RowMatrix weights;                                                      ///< (N x 6): three of the position, three of the orientation
+  Eigen::Matrix<double, 6, 1> start_twist =
+      Eigen::Matrix<double, 6, 1>::Zero();                ///< m/s, then rad/s, world frame
+  Eigen::Vector3d start_error = Eigen::Vector3d::Zero();  ///< Log(Rg R0^T) on its branch, rad
+  Eigen::Matrix<double, 6, 1> amplitude =
+      Eigen::Matrix<double, 6, 1>::Zero();  ///< ranges of p [m] and Log(Rg R^T) [rad]
+  RowMatrix weights;                        ///< (N x 6): three of the position, three of the orientation
 };
 
-/// A dynamic movement primitive for poses [R p; 0 1]: a Dmp for p and an OrientationDmp for R with one phase, one set
-/// of kernels and one duration, advanced in the same steps. p does not depend on R. Immutable.
+/// A dynamic movement primitive for poses [R p; 0 1]: a Dmp for p and an OrientationDmp for R with one phase,
+/// one set of kernels and one duration, advanced in the same steps. p does not depend on R. Immutable.
 class DMP_EXPORT PoseDmp {
  public:
   static PoseDmp fit(const PoseDemonstration& demonstration, const DmpOptions& options = {});
@@ -34,7 +36,7 @@ class DMP_EXPORT PoseDmp {
 
   const PoseDmpParameters& parameters() const noexcept;
   const DmpOptions& options() const noexcept { return parameters().options; }
-  double duration() const noexcept { return parameters().duration; }            ///< s
+  double duration() const noexcept { return parameters().duration; }  ///< s
   const Eigen::Matrix4d& start() const noexcept { return parameters().start; }
   const Eigen::Matrix4d& goal() const noexcept { return parameters().goal; }
   const ForcingTerm& forcing() const noexcept;
@@ -47,6 +49,9 @@ class DMP_EXPORT PoseDmp {
 
  private:
   friend class PoseRun;
+  PoseTrajectory roll_out(const detail::Timetable& timetable, const std::optional<Eigen::Matrix4d>& goal,
+                          std::optional<double> duration) const;
+
   struct Data;
   std::shared_ptr<const Data> data_;
 };
@@ -66,15 +71,16 @@ class DMP_EXPORT PoseRun {
   Status set_goal(const Eigen::Matrix4d& goal) noexcept DMP_REALTIME;
   Status set_duration(double duration) noexcept DMP_REALTIME;
   /// twist: linear velocity of the origin [m/s], angular velocity [rad/s], world frame.
-  Status start_from(const Eigen::Matrix4d& pose, const Eigen::Matrix<double, 6, 1>& twist) noexcept DMP_REALTIME;
+  Status start_from(const Eigen::Matrix4d& pose,
+                    const Eigen::Matrix<double, 6, 1>& twist) noexcept DMP_REALTIME;
   void reset() noexcept DMP_REALTIME;
 
-  Eigen::Matrix4d pose() const noexcept DMP_REALTIME;                          ///< [R p; 0 1]
-  Eigen::Vector3d position() const noexcept DMP_REALTIME;                      ///< m
+  Eigen::Matrix4d pose() const noexcept DMP_REALTIME;      ///< [R p; 0 1]
+  Eigen::Vector3d position() const noexcept DMP_REALTIME;  ///< m
   Eigen::Matrix3d rotation() const noexcept DMP_REALTIME;
   const Eigen::Quaterniond& quaternion() const noexcept DMP_REALTIME;
-  Eigen::Matrix<double, 6, 1> twist() const noexcept DMP_REALTIME;             ///< m/s, rad/s, world frame
-  Eigen::Matrix<double, 6, 1> acceleration() const noexcept DMP_REALTIME;      ///< m/s^2, rad/s^2, world frame
+  Eigen::Matrix<double, 6, 1> twist() const noexcept DMP_REALTIME;         ///< m/s, rad/s, world frame
+  Eigen::Matrix<double, 6, 1> acceleration() const noexcept DMP_REALTIME;  ///< m/s^2, rad/s^2, world frame
   Eigen::Matrix4d goal() const noexcept DMP_REALTIME;
   double time() const noexcept DMP_REALTIME;
   double phase() const noexcept DMP_REALTIME;

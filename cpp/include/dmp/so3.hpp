@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <string>
 
-/// Rotations: SO(3), its exponential and logarithm, Euler angles. Rotation matrices map body to world, so that
-/// Rd = [omega]x R makes omega the angular velocity in the world frame. All angles are in rad.
+/// Rotations: SO(3), its exponential and logarithm, Euler angles. Rotation matrices map body to world, so
+/// that Rd = [omega]x R makes omega the angular velocity in the world frame. All angles are in rad.
 namespace dmp::so3 {
 
 /// [a]x, the matrix with [a]x b = a x b.
@@ -22,13 +22,14 @@ DMP_EXPORT Eigen::Matrix3d exp(const Eigen::Vector3d& v) noexcept DMP_REALTIME;
 DMP_EXPORT Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& v) noexcept DMP_REALTIME;
 
 /// The rotation vector v with exp(v) = r and |v| <= pi, by the un-normalised Shepperd quaternion and atan2:
-/// exact to rounding everywhere, at pi too. There both signs are logarithms; the one whose first component that
-/// is not zero is positive is returned.
+/// exact to rounding everywhere, at pi too. There both signs are logarithms; the one whose first component
+/// that is not zero is positive is returned.
 DMP_EXPORT Eigen::Vector3d log(const Eigen::Matrix3d& r) noexcept DMP_REALTIME;
 /// The same for a quaternion, which need not have length 1; q and -q give the same answer.
 DMP_EXPORT Eigen::Vector3d log(const Eigen::Quaterniond& q) noexcept DMP_REALTIME;
 /// The logarithm nearest to `previous` among all branches (theta + 2 pi m) n: continuous through pi and 2 pi.
-DMP_EXPORT Eigen::Vector3d lifted_log(const Eigen::Quaterniond& q, const Eigen::Vector3d& previous) noexcept DMP_REALTIME;
+DMP_EXPORT Eigen::Vector3d lifted_log(const Eigen::Quaterniond& q,
+                                      const Eigen::Vector3d& previous) noexcept DMP_REALTIME;
 
 /// J_l(v): omega = J_l(v) vd for R = exp(v) (world frame).
 DMP_EXPORT Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& v) noexcept DMP_REALTIME;
@@ -40,8 +41,8 @@ DMP_EXPORT double distance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) n
 
 /// The rotation of three Euler angles. `convention` names the axes in the order of the angles: upper case for
 /// rotations about the moving axes ("ZYX": R = Rz(a) Ry(b) Rx(c)), lower case about the fixed ones ("xyz":
-/// R = Rz(c) Ry(b) Rx(a)); "source" is the passive product Rz(a)^T Ry(b)^T Rx(c)^T of the thesis proposal of 2019.
-/// Throws InvalidArgument for an unknown convention or angles that are not finite.
+/// R = Rz(c) Ry(b) Rx(a)); "source" is the passive product Rz(a)^T Ry(b)^T Rx(c)^T of the thesis proposal of
+/// 2019. Throws InvalidArgument for an unknown convention or angles that are not finite.
 DMP_EXPORT Eigen::Matrix3d from_euler(const Eigen::Vector3d& angles, const std::string& convention);
 /// The inverse: first and third angle in (-pi, pi], the middle one in [-pi/2, pi/2] (three different axes) or
 /// [0, pi] (first axis repeated). At gimbal lock the third angle is 0.

@@ -8,9 +8,9 @@
 
 namespace dmp {
 
-/// The interpolating quintic B-spline through samples on any increasing time grid (not-a-knot ends; de Boor 1978,
-/// "A Practical Guide to Splines", chapters IX and XIII): four times continuously differentiable. With fewer than
-/// six samples it is the polynomial through them.
+/// The interpolating quintic B-spline through samples on any increasing time grid (not-a-knot ends; de Boor
+/// 1978, "A Practical Guide to Splines", chapters IX and XIII): four times continuously differentiable. With
+/// fewer than six samples it is the polynomial through them.
 class DMP_EXPORT Spline {
  public:
   /// times (T) strictly increasing, values (T x d), T >= 2. The caller has checked them.
@@ -35,7 +35,8 @@ class DMP_EXPORT Spline {
 
   int degree_;
   std::vector<double> knots_;
-  RowMatrix coefficients_[3];  // of the spline and its first two derivatives, on the knots of degree, degree-1, ..
+  RowMatrix
+      coefficients_[3];  // of the spline and its first two derivatives, on the knots of degree, degree-1, ..
 };
 
 }  // namespace dmp

@@ -20,17 +20,18 @@ struct Trajectory {
 
 /// Orientations over time: what an OrientationDmp's rollout returns.
 struct OrientationTrajectory {
-  Eigen::VectorXd time;           ///< (T) s
-  Rotations rotation;             ///< (T) body -> world
-  RowMatrix angular_velocity;     ///< (T x 3) rad/s, world frame
-  RowMatrix angular_acceleration; ///< (T x 3) rad/s^2, world frame
+  Eigen::VectorXd time;            ///< (T) s
+  Rotations rotation;              ///< (T) body -> world
+  RowMatrix angular_velocity;      ///< (T x 3) rad/s, world frame
+  RowMatrix angular_acceleration;  ///< (T x 3) rad/s^2, world frame
 };
 
 /// Poses over time: what a PoseDmp's rollout returns.
 struct PoseTrajectory {
   Eigen::VectorXd time;  ///< (T) s
   Poses pose;            ///< (T) [R p; 0 1], body -> world
-  RowMatrix twist;       ///< (T x 6) linear velocity of the origin [m/s], then angular velocity [rad/s], world frame
+  RowMatrix
+      twist;  ///< (T x 6) linear velocity of the origin [m/s], then angular velocity [rad/s], world frame
 };
 
 }  // namespace dmp

@@ -37,15 +37,20 @@ ForcingScale::ForcingScale(Scaling scaling, const VectorXd& demonstrated, const 
 
 void ForcingScale::set(const Eigen::Ref<const VectorXd>& displacement) noexcept {
   switch (scaling_) {
-    case Scaling::none: return;
-    case Scaling::per_axis: factor_ = displacement; return;
+    case Scaling::none:
+      return;
+    case Scaling::per_axis:
+      factor_ = displacement;
+      return;
     case Scaling::per_axis_relative:
       for (Index d = 0; d < factor_.size(); ++d) {
         const bool moved = std::abs(demonstrated_[d]) > 1e-3 * amplitude_[d];
         factor_[d] = moved ? displacement[d] / demonstrated_[d] : 1.0;
       }
       return;
-    case Scaling::rotation_dilation: set_rotation(displacement); return;
+    case Scaling::rotation_dilation:
+      set_rotation(displacement);
+      return;
   }
 }
 

@@ -23,12 +23,12 @@ class ForcingScale {
   Scaling scaling_;
   Eigen::VectorXd demonstrated_;
   Eigen::VectorXd amplitude_;
-  Eigen::VectorXd factor_;   // per axis
+  Eigen::VectorXd factor_;  // per axis
   bool rotates_ = false;
   double dilation_ = 1.0;
-  Eigen::VectorXd from_;     // unit vectors of the minimal rotation
+  Eigen::VectorXd from_;  // unit vectors of the minimal rotation
   Eigen::VectorXd to_;
-  Eigen::VectorXd aside_;    // for opposite vectors: the half turn in the plane of from_ and aside_
+  Eigen::VectorXd aside_;  // for opposite vectors: the half turn in the plane of from_ and aside_
   bool opposite_ = false;
 };
 

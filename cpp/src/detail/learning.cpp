@@ -20,12 +20,14 @@ using Eigen::VectorXd;
 
 void require_positive(double value, const char* name) {
   if (!(std::isfinite(value) && value > 0.0))
-    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected a positive number.");
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
+                          ", expected a positive number.");
 }
 
 void require_not_negative(double value, const char* name) {
   if (!(std::isfinite(value) && value >= 0.0))
-    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected 0 or a positive number.");
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
+                          ", expected 0 or a positive number.");
 }
 
 VectorXd range(const RowMatrix& values) { return values.colwise().maxCoeff() - values.colwise().minCoeff(); }
@@ -39,7 +41,8 @@ RowMatrix gradient(const VectorXd& t, const RowMatrix& y) {
   for (Index k = 1; k + 1 < n; ++k) {
     const double before = t[k] - t[k - 1];
     const double after = t[k + 1] - t[k];
-    rate.row(k) = (before / after * (y.row(k + 1) - y.row(k)) + after / before * (y.row(k) - y.row(k - 1))) / (before + after);
+    rate.row(k) = (before / after * (y.row(k + 1) - y.row(k)) + after / before * (y.row(k) - y.row(k - 1))) /
+                  (before + after);
   }
   return rate;
 }
@@ -58,7 +61,8 @@ RowMatrix difference_velocity(const VectorXd& t, const Rotations& r) {
   for (Index k = 0; k < n; ++k) {
     const Index before = std::max<Index>(k - 1, 0);
     const Index after = std::min<Index>(k + 1, n - 1);
-    omega.row(k) = so3::log(Eigen::Matrix3d(r[after] * r[before].transpose())).transpose() / (t[after] - t[before]);
+    omega.row(k) =
+        so3::log(Eigen::Matrix3d(r[after] * r[before].transpose())).transpose() / (t[after] - t[before]);
   }
   return omega;
 }
@@ -86,8 +90,8 @@ RowMatrix errors_to_goal(const Rotations& rotations, LogBranch branch) {
 }
 
 /// tau^2 acceleration - alpha (beta error - tau velocity)
-RowMatrix forcing_of(double tau, double alpha, double beta, const RowMatrix& acceleration, const RowMatrix& error,
-                     const RowMatrix& velocity) {
+RowMatrix forcing_of(double tau, double alpha, double beta, const RowMatrix& acceleration,
+                     const RowMatrix& error, const RowMatrix& velocity) {
   return tau * tau * acceleration - alpha * (beta * error - tau * velocity);
 }
 
@@ -106,13 +110,14 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
 DmpOptions resolved(const DmpOptions& options) {
   DmpOptions result = options;
   if (options.basis_count < 1 || options.basis_count > 100000)
-    throw InvalidArgument("options.basis_count: " + std::to_string(options.basis_count) + ", expected 1 to 100000 kernels.");
+    throw InvalidArgument("options.basis_count: " + std::to_string(options.basis_count) +
+                          ", expected 1 to 100000 kernels.");
   if (options.passes < 1 || options.passes > 10000)
     throw InvalidArgument("options.passes: " + std::to_string(options.passes) + ", expected 1 to 10000.");
   result.beta = options.beta.value_or(options.alpha / 4.0);
   result.orientation_alpha = options.orientation_alpha.value_or(options.alpha);
-  result.orientation_beta =
-      options.orientation_beta.value_or(options.orientation_alpha ? *options.orientation_alpha / 4.0 : *result.beta);
+  result.orientation_beta = options.orientation_beta.value_or(
+      options.orientation_alpha ? *options.orientation_alpha / 4.0 : *result.beta);
   result.overlap = options.overlap.value_or(options.regression == Regression::lwr ? std::log(2.0) : 0.2);
   require_positive(result.alpha, "alpha");
   require_positive(*result.beta, "beta");
@@ -147,8 +152,10 @@ PositionLesson lesson_of(const Demonstration& demonstration, const DmpOptions& o
   if (options.start == Start::rest) lesson.start_z.setZero();
   lesson.amplitude = range(demonstration.position());
   const RowMatrix to_goal = lesson.goal.transpose().replicate(motion.position.rows(), 1) - motion.position;
-  lesson.target = {motion.time / tau, forcing_of(tau, options.alpha, *options.beta, motion.acceleration, to_goal, motion.velocity),
-                   VectorXd::Ones(lesson.start.size())};
+  lesson.target = {
+      motion.time / tau,
+      forcing_of(tau, options.alpha, *options.beta, motion.acceleration, to_goal, motion.velocity),
+      VectorXd::Ones(lesson.start.size())};
   return lesson;
 }
 
@@ -167,8 +174,8 @@ OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const
   return lesson;
 }
 
-void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacement, const VectorXd& reference,
-                   const VectorXd& amplitude, const DmpOptions& options) {
+void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacement,
+                   const VectorXd& reference, const VectorXd& amplitude, const DmpOptions& options) {
   if (options.scaling == Scaling::none) return;
   const Index axes = displacement.size();
   if (options.scaling != Scaling::rotation_dilation) {

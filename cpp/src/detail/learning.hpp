@@ -14,17 +14,17 @@ DmpOptions resolved(const DmpOptions& options);
 
 GaussianBasis basis_of(const DmpOptions& resolved);
 
-/// Where a demonstration is looked at: at its samples, or, where they are few for the kernels, on the spline at ten
-/// points a kernel. `time` (T) s from 0.
+/// Where a demonstration is looked at: at its samples, or, where they are few for the kernels, on the spline
+/// at ten points a kernel. `time` (T) s from 0.
 Eigen::VectorXd fit_times(const Eigen::VectorXd& time, const DmpOptions& options);
 
 /// One demonstration as a fit sees it: start, goal, range, and the forcing term that would reproduce it.
 struct PositionLesson {
   Eigen::VectorXd start;
   Eigen::VectorXd goal;
-  Eigen::VectorXd start_z;    ///< tau yd(0), or 0 for a start at rest
+  Eigen::VectorXd start_z;  ///< tau yd(0), or 0 for a start at rest
   Eigen::VectorXd amplitude;
-  ForcingTarget target;       ///< its scale is left at 1
+  ForcingTarget target;  ///< its scale is left at 1
 };
 PositionLesson lesson_of(const Demonstration& demonstration, const DmpOptions& options);
 
@@ -41,7 +41,8 @@ OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const
 /// Sets a target's scale (its axes from `first` on) after the scaling that the options name: the forcing of a
 /// demonstration whose displacement is `displacement`, in a model whose displacement is `reference`.
 void apply_scaling(ForcingTarget& target, Eigen::Index first, const Eigen::VectorXd& displacement,
-                   const Eigen::VectorXd& reference, const Eigen::VectorXd& amplitude, const DmpOptions& options);
+                   const Eigen::VectorXd& reference, const Eigen::VectorXd& amplitude,
+                   const DmpOptions& options);
 
 /// The rotation nearest to all of them (chordal mean; Hartley et al. 2013, "Rotation averaging").
 Eigen::Matrix3d mean_rotation(const Rotations& rotations);

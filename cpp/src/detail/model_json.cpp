@@ -18,7 +18,8 @@ constexpr int kVersion = 1;
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr int kDeepest = 8;
 
-// ---- the names that options have in a file ----------------------------------------------------------------------
+// ---- the names that options have in a file
+// ----------------------------------------------------------------------
 
 template <class Enum>
 using Names = std::vector<std::pair<Enum, const char*>>;
@@ -29,11 +30,14 @@ const Names<Scaling> kScaling{{Scaling::none, "none"},
                               {Scaling::per_axis, "per_axis"},
                               {Scaling::per_axis_relative, "per_axis_relative"},
                               {Scaling::rotation_dilation, "rotation_dilation"}};
-const Names<OrientationForm> kForm{{OrientationForm::ude, "ude"}, {OrientationForm::log_linear, "log_linear"}};
+const Names<OrientationForm> kForm{{OrientationForm::ude, "ude"},
+                                   {OrientationForm::log_linear, "log_linear"}};
 const Names<LogBranch> kBranch{{LogBranch::lifted, "lifted"}, {LogBranch::principal, "principal"}};
-const Names<Derivatives> kDerivatives{{Derivatives::interpolate, "interpolate"}, {Derivatives::gradient, "gradient"}};
+const Names<Derivatives> kDerivatives{{Derivatives::interpolate, "interpolate"},
+                                      {Derivatives::gradient, "gradient"}};
 const Names<Start> kStart{{Start::demonstrated, "demonstrated"}, {Start::rest, "rest"}};
-const Names<Integrator> kIntegrator{{Integrator::exact, "exact"}, {Integrator::semi_implicit_euler, "semi_implicit_euler"}};
+const Names<Integrator> kIntegrator{{Integrator::exact, "exact"},
+                                    {Integrator::semi_implicit_euler, "semi_implicit_euler"}};
 
 template <class Enum>
 std::string name_of(Enum value, const Names<Enum>& names) {
@@ -42,7 +46,8 @@ std::string name_of(Enum value, const Names<Enum>& names) {
   throw InvalidArgument("options: an enumerator outside its enumeration.");
 }
 
-// ---- reading ----------------------------------------------------------------------------------------------------
+// ---- reading
+// ----------------------------------------------------------------------------------------------------
 
 const Json& member(const Json& object, const std::string& key, const std::string& where) {
   if (!object.is_object()) throw InvalidArgument(where + ": expected an object.");
@@ -93,7 +98,8 @@ RowMatrix table_at(const Json& json, const std::string& where) {
     const Json& row = json[static_cast<std::size_t>(r)];
     if (!row.is_array() || static_cast<Index>(row.size()) != table.cols())
       throw InvalidArgument(indexed(where, r) + ": expected " + std::to_string(table.cols()) + " numbers.");
-    for (Index c = 0; c < table.cols(); ++c) table(r, c) = number_at(row[static_cast<std::size_t>(c)], indexed(where, r));
+    for (Index c = 0; c < table.cols(); ++c)
+      table(r, c) = number_at(row[static_cast<std::size_t>(c)], indexed(where, r));
   }
   return table;
 }
@@ -101,14 +107,16 @@ RowMatrix table_at(const Json& json, const std::string& where) {
 Eigen::VectorXd vector_at(const Json& json, const std::string& where) {
   if (!json.is_array()) throw InvalidArgument(where + ": expected a list of numbers.");
   Eigen::VectorXd vector(static_cast<Index>(json.size()));
-  for (Index d = 0; d < vector.size(); ++d) vector[d] = number_at(json[static_cast<std::size_t>(d)], indexed(where, d));
+  for (Index d = 0; d < vector.size(); ++d)
+    vector[d] = number_at(json[static_cast<std::size_t>(d)], indexed(where, d));
   return vector;
 }
 
 template <int Size>
 Eigen::Matrix<double, Size, 1> fixed_vector_at(const Json& json, const std::string& where) {
   const Eigen::VectorXd vector = vector_at(json, where);
-  if (vector.size() != Size) throw InvalidArgument(where + ": expected " + std::to_string(Size) + " numbers.");
+  if (vector.size() != Size)
+    throw InvalidArgument(where + ": expected " + std::to_string(Size) + " numbers.");
   return vector;
 }
 
@@ -121,9 +129,12 @@ Eigen::Matrix<double, Size, Size> square_at(const Json& json, const std::string&
   return table;
 }
 
-// ---- writing ----------------------------------------------------------------------------------------------------
+// ---- writing
+// ----------------------------------------------------------------------------------------------------
 
-Json to_list(const Eigen::VectorXd& vector) { return std::vector<double>(vector.data(), vector.data() + vector.size()); }
+Json to_list(const Eigen::VectorXd& vector) {
+  return std::vector<double>(vector.data(), vector.data() + vector.size());
+}
 
 Json to_rows(const RowMatrix& table) {
   Json rows = Json::array();
@@ -131,7 +142,8 @@ Json to_rows(const RowMatrix& table) {
   return rows;
 }
 
-// ---- options ----------------------------------------------------------------------------------------------------
+// ---- options
+// ----------------------------------------------------------------------------------------------------
 
 Json to_json(const DmpOptions& o) {
   return {{"basis_count", o.basis_count},
@@ -186,10 +198,15 @@ DmpOptions options_at(const Json& model) {
   return o;
 }
 
-// ---- the three kinds --------------------------------------------------------------------------------------------
+// ---- the three kinds
+// --------------------------------------------------------------------------------------------
 
 Json header(const char* kind, const DmpOptions& options, double duration) {
-  return {{"format", "dmpcpp"}, {"version", kVersion}, {"kind", kind}, {"options", to_json(options)}, {"duration", duration}};
+  return {{"format", "dmpcpp"},
+          {"version", kVersion},
+          {"kind", kind},
+          {"options", to_json(options)},
+          {"duration", duration}};
 }
 
 Json to_json(const Dmp& dmp) {
@@ -273,8 +290,10 @@ class Guard {
  public:
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
-    if (depth > kDeepest) throw InvalidArgument("model: nested deeper than " + std::to_string(kDeepest) + " levels.");
-    if (event == Event::value && ++values_ > kMostNumbers) throw InvalidArgument("model: more than 10^6 values.");
+    if (depth > kDeepest)
+      throw InvalidArgument("model: nested deeper than " + std::to_string(kDeepest) + " levels.");
+    if (event == Event::value && ++values_ > kMostNumbers)
+      throw InvalidArgument("model: more than 10^6 values.");
     if (event == Event::object_start) keys_.emplace_back();
     if (event == Event::object_end) keys_.pop_back();
     if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)

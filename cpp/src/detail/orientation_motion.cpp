@@ -23,8 +23,9 @@ void renormalise(Quaterniond& q) noexcept { q.coeffs() *= 1.5 - 0.5 * q.squaredN
 
 }  // namespace
 
-OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start, const Eigen::Matrix3d& goal,
-                                     const Vector3d& start_error, const Vector3d& eta, const Vector3d& amplitude)
+OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start,
+                                     const Eigen::Matrix3d& goal, const Vector3d& start_error,
+                                     const Vector3d& eta, const Vector3d& amplitude)
     : integrator_(options.integrator),
       form_(options.orientation_form),
       branch_(options.log_branch),
@@ -90,7 +91,8 @@ Quaterniond OrientationMotion::filtered_goal(double piece) const noexcept {
   return so3::exp_quaternion((1.0 - std::exp(-goal_filter_ * piece)) * way) * goal_;
 }
 
-Vector3d OrientationMotion::acceleration(const Vector3d& e, const Vector3d& eta, const double* f) const noexcept {
+Vector3d OrientationMotion::acceleration(const Vector3d& e, const Vector3d& eta,
+                                         const double* f) const noexcept {
   return spring_.stiffness() * e - spring_.alpha() * eta + Vector3d(f[0], f[1], f[2]);
 }
 
@@ -108,9 +110,10 @@ void OrientationMotion::advance(double step, const ForcingNodes& forcing) noexce
   if (!settled_ && (target_ * goal_.conjugate()).vec().norm() < 1e-15) jump_to_goal();
 }
 
-/// The Runge-Kutta-Munthe-Kaas method of fourth order: R = Exp(u) R_n with ud = J_l(u)^-1 eta, so that R stays on
-/// SO(3) (Munthe-Kaas 1998, BIT 38).
-void OrientationMotion::advance_ude(double step, const double* start, const double* middle, const double* end) noexcept {
+/// The Runge-Kutta-Munthe-Kaas method of fourth order: R = Exp(u) R_n with ud = J_l(u)^-1 eta, so that R
+/// stays on SO(3) (Munthe-Kaas 1998, BIT 38).
+void OrientationMotion::advance_ude(double step, const double* start, const double* middle,
+                                    const double* end) noexcept {
   const double half = 0.5 * step;
   const Quaterniond goal_middle = settled_ ? goal_ : filtered_goal(half);
   const Quaterniond goal_end = settled_ ? goal_ : filtered_goal(step);

@@ -11,13 +11,14 @@
 
 namespace dmp::detail {
 
-/// The transformation system of orientations: its state (R, eta = tau omega, e = Log(Rg R^T) on its branch) and how it
-/// moves over a step of the phase.
+/// The transformation system of orientations: its state (R, eta = tau omega, e = Log(Rg R^T) on its branch)
+/// and how it moves over a step of the phase.
 class OrientationMotion {
  public:
   /// start_error: Log(Rg R0^T) of the demonstration, on its branch; eta = tau omega at the start.
   OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start, const Eigen::Matrix3d& goal,
-                    const Eigen::Vector3d& start_error, const Eigen::Vector3d& eta, const Eigen::Vector3d& amplitude);
+                    const Eigen::Vector3d& start_error, const Eigen::Vector3d& eta,
+                    const Eigen::Vector3d& amplitude);
 
   void begin(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
   void set_goal(const Eigen::Quaterniond& goal) noexcept;
@@ -41,7 +42,8 @@ class OrientationMotion {
   /// Log(goal q^-1), on the branch nearest to e unless the principal one is wanted.
   Eigen::Vector3d error(const Eigen::Quaterniond& goal, const Eigen::Quaterniond& q) const noexcept;
   /// eta' = alpha (beta e - eta) + f
-  Eigen::Vector3d acceleration(const Eigen::Vector3d& e, const Eigen::Vector3d& eta, const double* f) const noexcept;
+  Eigen::Vector3d acceleration(const Eigen::Vector3d& e, const Eigen::Vector3d& eta,
+                               const double* f) const noexcept;
   /// The goal after another piece of the phase: Exp((1 - exp(-alpha_g piece)) Log(R* Rg^T)) Rg.
   Eigen::Quaterniond filtered_goal(double piece) const noexcept;
   const double* scaled(const double* forcing, int node) noexcept;
@@ -61,7 +63,8 @@ class OrientationMotion {
   Eigen::Quaterniond target_;  // as set
   Eigen::Quaterniond start_;
   bool settled_ = true;
-  Eigen::Matrix<double, 4, 3, Eigen::RowMajor> scratch_ = Eigen::Matrix<double, 4, 3, Eigen::RowMajor>::Zero();
+  Eigen::Matrix<double, 4, 3, Eigen::RowMajor> scratch_ =
+      Eigen::Matrix<double, 4, 3, Eigen::RowMajor>::Zero();
   Eigen::Quaterniond rotation_;  // outputs: the last finite ones
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();

@@ -11,9 +11,11 @@
 
 namespace dmp::detail {
 
-inline void require_finite(const Eigen::Ref<const Eigen::VectorXd>& value, Eigen::Index size, const std::string& name) {
+inline void require_finite(const Eigen::Ref<const Eigen::VectorXd>& value, Eigen::Index size,
+                           const std::string& name) {
   if (value.size() != size)
-    throw InvalidArgument(name + ": " + std::to_string(value.size()) + " numbers, expected " + std::to_string(size) + ".");
+    throw InvalidArgument(name + ": " + std::to_string(value.size()) + " numbers, expected " +
+                          std::to_string(size) + ".");
   for (Eigen::Index d = 0; d < size; ++d)
     if (!std::isfinite(value[d]))
       throw InvalidArgument(indexed(name, d) + ": " + number(value[d]) + ", expected a finite number.");
@@ -21,8 +23,9 @@ inline void require_finite(const Eigen::Ref<const Eigen::VectorXd>& value, Eigen
 
 inline void require_weights(const RowMatrix& weights, Eigen::Index rows, Eigen::Index columns) {
   if (weights.rows() != rows || weights.cols() != columns)
-    throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()) +
-                          ", expected " + std::to_string(rows) + " x " + std::to_string(columns) + ".");
+    throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " x " +
+                          std::to_string(weights.cols()) + ", expected " + std::to_string(rows) + " x " +
+                          std::to_string(columns) + ".");
 }
 
 inline void require_pose(const Eigen::Matrix4d& pose, const std::string& name) {

@@ -7,8 +7,8 @@ namespace dmp::detail {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-PositionMotion::PositionMotion(const DmpOptions& options, const VectorXd& start, const VectorXd& goal, const VectorXd& z,
-                               const VectorXd& amplitude)
+PositionMotion::PositionMotion(const DmpOptions& options, const VectorXd& start, const VectorXd& goal,
+                               const VectorXd& z, const VectorXd& amplitude)
     : integrator_(options.integrator),
       unscaled_(options.scaling == Scaling::none),
       goal_filter_(options.goal_filter),
@@ -27,7 +27,8 @@ PositionMotion::PositionMotion(const DmpOptions& options, const VectorXd& start,
   scale_.set(displacement_);
 }
 
-void PositionMotion::begin(const Eigen::Ref<const VectorXd>& y, const Eigen::Ref<const VectorXd>& z) noexcept {
+void PositionMotion::begin(const Eigen::Ref<const VectorXd>& y,
+                           const Eigen::Ref<const VectorXd>& z) noexcept {
   start_ = y;
   y_ = y;
   z_ = z;
@@ -67,7 +68,8 @@ void PositionMotion::advance(double step, const ForcingNodes& forcing) noexcept 
   advance_exactly(step, scaled(forcing.start, 0), scaled(forcing.middle, 1), end);
 }
 
-void PositionMotion::advance_exactly(double step, const double* start, const double* middle, const double* end) noexcept {
+void PositionMotion::advance_exactly(double step, const double* start, const double* middle,
+                                     const double* end) noexcept {
   spring_.prepare(step);
   const double half_decay = settled_ ? 0.0 : std::exp(-0.5 * goal_filter_ * step);
   const double stiffness = spring_.stiffness();

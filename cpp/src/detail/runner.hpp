@@ -14,9 +14,9 @@
 
 namespace dmp::detail {
 
-/// Takes a motion (positions, orientation, or both) through the phase. What every run has in common stands here once:
-/// steps are divided so that none exceeds a part of the duration and none straddles its end, the forcing term is
-/// evaluated at the nodes of each, and the outputs change only while they are finite.
+/// Takes a motion (positions, orientation, or both) through the phase. What every run has in common stands
+/// here once: steps are divided so that none exceeds a part of the duration and none straddles its end, the
+/// forcing term is evaluated at the nodes of each, and the outputs change only while they are finite.
 template <class Motion>
 class Runner {
  public:

@@ -13,6 +13,8 @@ inline std::string number(double value) {
 }
 
 /// name[index]
-inline std::string indexed(const std::string& name, long index) { return name + "[" + std::to_string(index) + "]"; }
+inline std::string indexed(const std::string& name, long index) {
+  return name + "[" + std::to_string(index) + "]";
+}
 
 }  // namespace dmp::detail
