@@ -1,0 +1,241 @@
+"""The command line: `dmpcpp demo`, `dmpcpp imitate`.
+
+Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp import __version__
+from dmpcpp.errors import InvalidArgument, MissingDependency
+
+if TYPE_CHECKING:
+    from dmpcpp._core import Arm
+    from dmpcpp.imitation import Imitation, Progress
+    from dmpcpp.recordings import Recording
+
+_WRONG_INPUT, _FAILED = 2, 3
+
+
+class _Group(click.Group):
+    """Turns errors that a user can mend into one line and an exit status, without a traceback."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except (InvalidArgument, MissingDependency, OSError) as error:
+            click.echo(f"dmpcpp: {error}", err=True)
+            ctx.exit(_WRONG_INPUT)
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="dmpcpp")
+def main() -> None:
+    """A person's motion, learned as a dynamic movement primitive and carried out by a robot arm under physics."""
+
+
+def _arm_options(command: Callable[..., None]) -> Callable[..., None]:
+    options = (
+        click.option(
+            "--arm", default="panda", show_default=True, metavar="NAME|FILE.urdf", help="panda, iiwa, xarm6, or a URDF."
+        ),
+        click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given."),
+        click.option("--tip", metavar="LINK", help="The link of a URDF that follows the motion; its only leaf unless given."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        options = (
+            click.option(
+                "--out",
+                default=default_out,
+                show_default=True,
+                type=click.Path(file_okay=False, path_type=Path),
+                help="Folder for model.json, plan.npz, joints.csv, picture.png, summary.json.",
+            ),
+            click.option("--seed", default=0, show_default=True, help="Of the search for a placement."),
+            click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."),
+            click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
+        )
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+@main.command()
+@click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
+@click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
+@_arm_options
+@_run_options("dmpcpp-demo")
+def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
+    """Show the main job on a human motion that every installation has.
+
+    Example: dmpcpp demo --clip dance_b --arm iiwa --out dance
+    """
+    from dmpcpp import arms, recordings
+
+    _carry_out(recordings.clip(clip, body), arms.load(arm, base, tip), **run)
+
+
+@main.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several.")
+@click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file.")
+@click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it.")
+@click.option("--time-unit", metavar="s|ms|us|ns", help="Unit of times, where the format does not say it.")
+@click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times.")
+@click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array.")
+@click.option("--up-axis", metavar="x|y|z", help="The recording's axis that points up, where the format does not say it.")
+@click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..).")
+@click.option("--delimiter", metavar="C", help="Between the cells of a table.")
+@click.option("--columns", metavar="time=..,x=..", help="Columns of a table: time, x, y, z, qx, qy, qz, qw by name or number.")
+@click.option("--start", type=float, default=0.0, metavar="S", help="Use the motion from here [s].")
+@click.option("--end", type=float, metavar="S", help="Use the motion up to here [s].")
+@click.option("--low-pass", type=float, metavar="HZ", help="Remove what is faster (zero-phase Butterworth).")
+@click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame.")
+@_arm_options
+@_run_options("dmpcpp-imitation")
+def imitate(
+    file: Path,
+    body: str | None,
+    format_: str | None,
+    start: float,
+    end: float | None,
+    low_pass: float | None,
+    no_place: bool,
+    arm: str,
+    base: str | None,
+    tip: str | None,
+    **options: Any,
+) -> None:
+    """Carry out the motion in FILE: a DeepMimic clip, a TUM file, a CSV/TSV table, or a .npy/.npz of poses.
+
+    Example: dmpcpp imitate session.csv --body hand --unit mm --arm panda --out session
+    """
+    from dmpcpp import arms, motion, recordings
+
+    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "as_json")}
+    stated = {name: value for name, value in options.items() if value is not None}
+    if "columns" in stated:
+        stated["columns"] = _columns(stated["columns"])
+    recording = recordings.load(file, body, format_, **stated)
+    if start or end is not None:
+        recording = motion.crop(recording, start, end)
+    if low_pass is not None:
+        recording = motion.low_pass(recording, low_pass)
+    _carry_out(recording, arms.load(arm, base, tip), place=not no_place, **run)
+
+
+def _columns(text: str) -> dict[str, str | int]:
+    columns: dict[str, str | int] = {}
+    for part in text.split(","):
+        name, equals, column = part.partition("=")
+        if not equals or not column:
+            raise InvalidArgument(f"--columns: '{part}', expected NAME=COLUMN such as x=3 or x=hand_x.")
+        columns[name.strip()] = int(column) if column.strip().isdigit() else column.strip()
+    return columns
+
+
+def _carry_out(
+    recording: Recording, arm: Arm, *, out: Path, seed: int, basis_count: int | None, as_json: bool, place: bool = True
+) -> None:
+    from dmpcpp import imitation
+
+    _refuse_file(out)
+    with _progress(as_json) as progress:
+        run = imitation.imitate(recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress)
+    imitation.write(run, out)
+    if as_json:
+        click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
+    else:
+        _print(run, out)
+    if not run.ok:
+        sys.exit(_FAILED)
+
+
+def _refuse_file(out: Path) -> None:
+    if out.exists() and not out.is_dir():
+        raise InvalidArgument(f"--out: '{out}' is a file, expected a folder.")
+
+
+@contextmanager
+def _progress(hidden: bool) -> Iterator[Progress]:
+    """Show a bar on stderr while the flow runs."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress as Bar, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    from dmpcpp.imitation import STAGES
+
+    titles = {
+        "place": "placing the motion in the arm's workspace",
+        "learn": "learning the motion",
+        "solve": "solving the inverse kinematics",
+        "execute": "executing under physics",
+    }
+    columns = (SpinnerColumn(), TextColumn("{task.description:<42}"), BarColumn(), TimeElapsedColumn())
+    with Bar(*columns, console=Console(stderr=True), transient=True, disable=hidden) as bar:
+        task = bar.add_task(titles[STAGES[0]], total=len(STAGES))
+
+        def tell(stage: str, done: float) -> None:
+            bar.update(task, description=titles[stage], completed=STAGES.index(stage) + done)
+
+        yield tell
+
+
+def _print(run: Imitation, out: Path) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    for line in run.recording.history:
+        console.print(f"[dim]{line}[/dim]", soft_wrap=True, markup=True)
+    console.print(
+        f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, {run.slowdown:.2f} x the recorded duration"
+    )
+    console.print(_errors_table(run, Table))
+    console.print(_checks_table(run, Table))
+    verdict = "[bold green]verified[/]" if run.ok else "[bold red]not verified[/]"
+    console.print(f"{verdict}: {run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}.", soft_wrap=True)
+    console.print(f"written to {out}/", soft_wrap=True)
+
+
+def _errors_table(run: Imitation, table_type: type) -> Any:
+    names = {
+        "demonstration_to_dmp": "demonstration → DMP",
+        "dmp_to_ik": "DMP → FK(IK)",
+        "ik_to_executed": "FK(IK) → executed",
+    }
+    table = table_type(title="errors", title_justify="left")
+    table.add_column("stage")
+    for title in ("position RMSE [mm]", "max [mm]", "angle RMSE [deg]", "max [deg]"):
+        table.add_column(title, justify="right")
+    for stage, errors in run.stages.items():
+        lengths = (1e3 * errors.position_rmse, 1e3 * errors.position_max)
+        turns = (57.29577951308232 * errors.angle_rmse, 57.29577951308232 * errors.angle_max)
+        table.add_row(names[stage], *(f"{value:.2g}" if value < 0.01 else f"{value:.3f}" for value in (*lengths, *turns)))
+    return table
+
+
+def _checks_table(run: Imitation, table_type: type) -> Any:
+    table = table_type(title="checks", title_justify="left")
+    for title in ("", "check", "value", "limit", "unit", "where"):
+        table.add_column(title, justify="right" if title in ("value", "limit") else "left")
+    for check in run.checks:
+        where = f"{check.time:.2f} s " if check.time is not None else ""
+        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
+        table.add_row(mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, where + check.detail)
+    return table

@@ -1,0 +1,281 @@
+"""The whole flow in one call: a recorded motion, placed, learned, solved, slowed to the limits and executed.
+
+>>> from dmpcpp import arms, imitation, recordings
+>>> run = imitation.imitate(recordings.clip("dance_b"), arms.find("panda"))   # doctest: +SKIP
+>>> run.ok, run.stages["ik_to_executed"].position_rmse                        # doctest: +SKIP
+
+Every stage is a value that can be looked at on its own; each step here is one call into the module that does it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp import arms, export, metrics, motion, plot, retarget, simulation
+from dmpcpp._core import (
+    Arm,
+    InverseKinematics,
+    JointTrajectory,
+    PoseDemonstration,
+    PoseDmp,
+    PoseTrajectory,
+    duration_factor,
+    save,
+    stretched,
+)
+from dmpcpp.atomic import replacing, write_text
+from dmpcpp.metrics import StageErrors
+from dmpcpp.recordings import Recording
+from dmpcpp.retarget import Placement
+from dmpcpp.simulation import Check, ExecutionLog
+
+__all__ = ["STAGES", "Imitation", "imitate", "learn", "write"]
+
+Progress = Callable[[str, float], None]
+"""Called as progress(stage, share done): a name of STAGES and 0 to 1."""
+
+STAGES = ("place", "learn", "solve", "execute")
+
+_KERNELS = (50, 100, 200, 400, 800)  # tried in this order until the motion is reproduced
+_GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, np.radians(0.1)  # m, rad RMSE; below that more kernels are no use
+_KERNELS_PER_SAMPLE = 4  # more than that would learn the spline between the samples, not the motion
+_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, np.radians(0.5)  # m, rad RMSE; what a reproduction must reach
+_SAMPLES_PER_KERNEL = 10
+_RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
+
+
+@dataclass(frozen=True, eq=False)
+class Imitation:
+    """A motion from recording to execution.
+
+    Attributes
+    ----------
+    recording : Recording
+        As it stands in the robot's base frame; its history says what was done to it.
+    placement : Placement or None
+        None where the recording was taken as it was.
+    model : PoseDmp
+    slowdown : float
+        Duration of the executed motion over that of the recording.
+    plan : PoseTrajectory
+        The model's rollout, slowed down.
+    joints : JointTrajectory
+    log : ExecutionLog
+    stages : dict of str to StageErrors
+        "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
+    checks : tuple of Check
+    """
+
+    recording: Recording
+    placement: Placement | None
+    model: PoseDmp
+    slowdown: float
+    plan: PoseTrajectory
+    joints: JointTrajectory
+    log: ExecutionLog
+    stages: dict[str, StageErrors]
+    checks: tuple[Check, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every check held."""
+        return all(check.ok for check in self.checks)
+
+    def summary(self) -> dict[str, Any]:
+        """Return what `summary.json` holds; m and rad."""
+        return {
+            "verdict": "pass" if self.ok else "fail",
+            "stages": {name: errors.to_dict() for name, errors in self.stages.items()},
+            "checks": [check.to_dict() for check in self.checks],
+            "arm": self.log.arm.name,
+            "recording": {
+                "source": self.recording.source,
+                "body": self.recording.body,
+                "samples": len(self.recording),
+                "duration": self.recording.duration,
+                "history": list(self.recording.history),
+            },
+            "basis_count": self.model.options.basis_count,
+            "duration": self.plan.time[-1],
+            "slowdown": self.slowdown,
+            "simulator": self.log.simulator,
+            "mode": self.log.mode,
+            "caveat": self.log.caveat,
+        }
+
+
+def imitate(
+    recording: Recording,
+    arm: Arm,
+    *,
+    seed: int = 0,
+    place: bool = True,
+    basis_count: int | None = None,
+    progress: Progress | None = None,
+) -> Imitation:
+    """Carry out a recorded motion on a simulated arm and say how well that went.
+
+    Parameters
+    ----------
+    recording : Recording
+    arm : Arm
+    seed : int
+        Of the search for a placement.
+    place : bool
+        Search a placement of the motion in the arm's workspace; if False the recorded poses are taken as
+        poses of the arm's tip in its base frame.
+    basis_count : int, optional
+        Kernels of the model; by default as many as the motion needs.
+    progress : callable, optional
+        See `Progress`.
+
+    Raises
+    ------
+    InvalidArgument
+        The recording can not be learned, or no placement carries it.
+    MissingDependency
+        The simulator is not installed.
+    """
+    tell = progress or (lambda stage, done: None)
+    tell("place", 0.0)
+    recording = motion.continuous(recording)
+    placement = retarget.place(recording, arm, seed, accept=_clear_of_itself(arm)) if place else None
+    placed = placement.apply_to(recording) if placement else recording
+    tell("learn", 0.0)
+    demonstration = motion.demonstration(placed)
+    model = learn(demonstration, basis_count)
+    tell("solve", 0.0)
+    plan, joints, slowdown = _solve(model, arm)
+    tell("execute", 0.0)
+    log = simulation.execute(arm, joints, progress=lambda done, total: tell("execute", done / total))
+    stages = {
+        "demonstration_to_dmp": _reproduction(model, demonstration),
+        "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
+        "ik_to_executed": log.errors,
+    }
+    checks = (*_reproduction_checks(stages["demonstration_to_dmp"]), *log.verdict.checks)
+    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks)
+
+
+def learn(demonstration: PoseDemonstration, basis_count: int | None = None) -> PoseDmp:
+    """Learn a demonstration with as many kernels as it needs to be reproduced to 0.2 mm and 0.1 deg RMSE.
+
+    Where even the most kernels do not reach that, the model that came closest is returned. `basis_count`
+    sets the number instead.
+    """
+    if basis_count is not None:
+        return PoseDmp.fit(demonstration, basis_count=basis_count)
+    best: tuple[float, PoseDmp] | None = None
+    for count in _KERNELS:
+        if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
+            break
+        model = PoseDmp.fit(demonstration, basis_count=count)
+        errors = _reproduction(model, demonstration)
+        miss = max(errors.position_rmse / _GOOD_POSITION, errors.angle_rmse / _GOOD_ANGLE)
+        if best is None or miss < best[0]:
+            best = miss, model
+        if miss <= 1.0:
+            break
+    assert best is not None
+    return best[1]
+
+
+def write(run: Imitation, folder: str | PathLike[str]) -> None:
+    """Write model.json, plan.npz, joints.csv, picture.png and summary.json, each whole or not at all.
+
+    The summary comes last: a folder that has one has all.
+
+    Raises
+    ------
+    FileError
+        The folder or a file can not be written.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "summary.json").unlink(missing_ok=True)
+    arm = run.log.arm
+    save(run.model, folder / "model.json")
+    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip)
+    export.write_joints(folder / "joints.csv", run.joints)
+    _picture(run, folder / "picture.png")
+    write_text(folder / "summary.json", json.dumps(run.summary(), indent=2, allow_nan=False) + "\n")
+
+
+def _clear_of_itself(arm: Arm) -> Callable[[JointTrajectory], bool]:
+    """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
+
+    def clear(joints: JointTrajectory) -> bool:
+        every = max(1, len(joints.time) // 100)
+        return not simulation.contacts_along(arm, joints.position[::every])
+
+    return clear
+
+
+def _solve(model: PoseDmp, arm: Arm) -> tuple[PoseTrajectory, JointTrajectory, float]:
+    """Return plan, joints and slowdown: the path as demonstrated, the duration as the joint limits ask for."""
+    samples = _SAMPLES_PER_KERNEL * max(model.options.basis_count, 100)
+    dt = model.duration / samples
+    joints = InverseKinematics(arm).follow(model.rollout(dt=dt))
+    slowdown = max(
+        1.0,
+        _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)),
+    )
+    joints = stretched(joints, slowdown)
+    torque = simulation.torque_duration_factor(arm, joints)
+    if 1.0 < torque < np.inf:
+        joints = stretched(joints, torque)
+        slowdown *= torque
+    plan = model.rollout(duration=slowdown * model.duration, dt=slowdown * dt)
+    return plan, joints, slowdown
+
+
+def _reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
+    return metrics.compare(demonstration.pose, model.rollout_at(demonstration.time).pose)
+
+
+def _reproduction_checks(errors: StageErrors) -> tuple[Check, ...]:
+    return (
+        Check(
+            "reproduction_position_rmse",
+            errors.position_rmse <= _LIMIT_POSITION,
+            errors.position_rmse,
+            _LIMIT_POSITION,
+            "m",
+        ),
+        Check("reproduction_angle_rmse", errors.angle_rmse <= _LIMIT_ANGLE, errors.angle_rmse, _LIMIT_ANGLE, "rad"),
+    )
+
+
+def _picture(run: Imitation, path: Path) -> None:
+    demonstrated = motion.poses(run.recording)
+    during = run.log.motion
+    again = run.model.rollout_at(run.recording.time).pose
+    solved = run.log.arm.forward_kinematics(run.joints.position)
+    executed = run.log.tool_pose[during]
+
+    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
+        return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
+
+    with replacing(path) as temporary:
+        plot.picture(
+            temporary,
+            demonstrated=demonstrated,
+            planned=run.plan.pose,
+            executed=executed,
+            errors=(
+                curve("demonstration → DMP", run.slowdown * run.recording.time, demonstrated, again),
+                curve("DMP → FK(IK)", run.plan.time, run.plan.pose, solved),
+                curve("FK(IK) → executed", run.log.time[during], run.log.desired_tool_pose[during], executed),
+            ),
+            title=f"{run.recording.source} ({run.recording.body}) on {run.log.arm.name}",
+            note=f"{'all checks held' if run.ok else 'checks failed'}; {run.slowdown:.2f} x the recorded duration; "
+            f"{run.log.simulator}, {run.log.mode}",
+        )
