@@ -27,6 +27,7 @@ __all__ = [
     "demonstration",
     "low_pass",
     "poses",
+    "refine",
     "relative_to",
     "resample",
     "turn_angles",
@@ -134,15 +135,34 @@ def resample(recording: Recording, rate: float) -> Recording:
             f"rate: {rate:g} Hz gives {count} samples over {recording.duration:g} s, expected at least "
             f"{MIN_SAMPLES} and at most 1e7."
         )
-    continuous(recording, np.radians(179.0))
     time = np.minimum(np.arange(count) / rate, recording.duration)
-    turning = RotationSpline(recording.time, Rotation.from_matrix(recording.rotation))
-    return recording.with_(
-        f"resampled from {recording.rate:.4g} to {rate:g} Hz",
-        time=time,
-        position=CubicSpline(recording.time, recording.position)(time),
-        rotation=turning(time).as_matrix(),
-    )
+    return _evaluated(recording, time, f"resampled from {recording.rate:.4g} to {rate:g} Hz")
+
+
+def refine(recording: Recording, distance: float, angle: float) -> Recording:
+    """Put samples between those that lie far apart; the recorded ones stay.
+
+    Parameters
+    ----------
+    recording : Recording
+    distance : float
+        m, between consecutive samples of the result, about; each gap is cut into equal spans of time.
+    angle : float
+        rad, likewise.
+
+    Raises
+    ------
+    InvalidArgument
+        A distance or angle that is not positive; a turn too large to interpolate.
+    """
+    _positive("distance", distance)
+    _positive("angle", angle)
+    moved = np.linalg.norm(np.diff(recording.position, axis=0), axis=1)
+    parts = np.ceil(np.maximum(moved / distance, turn_angles(recording) / angle)).astype(int)
+    spans = zip(recording.time[:-1], recording.time[1:], np.maximum(parts, 1), strict=True)
+    inner = [np.linspace(a, b, n, endpoint=False) for a, b, n in spans]
+    time = np.concatenate([*inner, recording.time[-1:]])
+    return _evaluated(recording, time, f"refined from {len(recording)} to {len(time)} samples")
 
 
 def low_pass(recording: Recording, cutoff: float, order: int = 2) -> Recording:
@@ -202,6 +222,17 @@ def relative_to(recording: Recording, reference: Recording) -> Recording:
         f"relative to {reference.body}",
         position=np.einsum("kij,kj->ki", inverse, offset),
         rotation=rotation.as_matrix(),
+    )
+
+
+def _evaluated(recording: Recording, time: Array, note: str) -> Recording:
+    continuous(recording, np.radians(179.0))
+    turning = RotationSpline(recording.time, Rotation.from_matrix(recording.rotation))
+    return recording.with_(
+        note,
+        time=time,
+        position=CubicSpline(recording.time, recording.position)(time),
+        rotation=turning(time).as_matrix(),
     )
 
 

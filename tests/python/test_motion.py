@@ -178,3 +178,16 @@ def test_the_hand_held_camera_loses_little_but_noise(recorded):
         motion.low_pass(truth, 6.0)
     filtered = motion.low_pass(motion.resample(truth, 100.0), 6.0)
     assert "positions changed by 0.21 mm rms" in filtered.history[-1]
+
+
+def test_refining_keeps_the_samples_and_fills_what_lies_far_apart():
+    coarse, fine = screw(rate=20.0), screw(rate=1000.0)
+    refined = motion.refine(coarse, distance=0.03, angle=0.05)
+    assert set(coarse.time) <= set(refined.time)
+    assert motion.turn_angles(refined).max() <= 0.05 + 1e-9
+    assert np.linalg.norm(np.diff(refined.position, axis=0), axis=1).max() <= 0.031
+    np.testing.assert_allclose(refined.position[:, 0], np.sin(2 * refined.time), atol=1e-4)
+    assert refined.history == (f"refined from 41 to {len(refined)} samples",)
+    assert len(motion.refine(fine, distance=1.0, angle=1.0)) == len(fine)
+    with pytest.raises(InvalidArgument, match="distance: 0, expected a positive number"):
+        motion.refine(coarse, distance=0, angle=0.1)
