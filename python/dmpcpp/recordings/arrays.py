@@ -1,0 +1,199 @@
+"""NumPy files: poses as (T, 4, 4) matrices, (T, 7) positions and quaternions, or (T, 8) with the time first.
+
+A .npz names its arrays: `pose`, `poses` or the only array of a fitting shape, and `time`, `times` or `t` in
+s, or `rate` in Hz. A .npy holds one array; its rate is stated. A leading axis (N, T, ...) holds N
+demonstrations.
+"""
+
+from __future__ import annotations
+
+import warnings
+import zipfile
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.recordings.orientation import QuatOrder, from_matrices, from_quaternions
+from dmpcpp.recordings.reader import Reader, pick_body
+from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.recordings.stated import Stated, times_at_rate
+
+__all__ = ["READER", "bodies", "read", "read_arrays"]
+
+_BODY = "pose"
+_POSE_NAMES = ("pose", "poses")
+_TIME_NAMES = ("time", "times", "t")
+_LARGEST_ARRAY = 256 * 1024 * 1024  # bytes; a hostile file may claim more than the machine has
+
+
+def bodies(path: Path, **_stated: object) -> tuple[str, ...]:
+    """Return the one body of an array file, "pose"."""
+    read_arrays(path)
+    return (_BODY,)
+
+
+def read(
+    path: Path,
+    body: str | None,
+    *,
+    rate: float | None = None,
+    quat_order: QuatOrder | None = None,
+    index: int | None = None,
+    unit: str | float | None = None,
+    time_unit: str | float | None = None,
+    up_axis: Axis | None = None,
+) -> Recording:
+    """Return the poses as a Recording.
+
+    Parameters
+    ----------
+    rate : float, optional
+        Samples per second; needed where the file holds no times.
+    quat_order : "xyzw" or "wxyz", optional
+        Needed for (T, 7) and (T, 8).
+    index : int, optional
+        Which demonstration of an array (N, T, ...); counts from 0.
+    unit, time_unit, up_axis : optional
+        See `Stated`.
+    """
+    body = pick_body(body, (_BODY,))
+    arrays = {name: array for name, array in read_arrays(path).items() if array.dtype.kind == "f"}
+    poses = _chosen(_poses(arrays), index)
+    time, position, rotation, notes = _split(poses, quat_order)
+    if time is None:
+        time = _times(arrays, len(poses), rate)
+    if index is not None:
+        notes = [f"demonstration {index} of the file", *notes]
+    stated = Stated(unit=unit, time_unit=time_unit, up_axis=up_axis)
+    return stated.recording(
+        time=time, position=position, rotation=rotation, body=body, source=path.name, notes=notes
+    )
+
+
+def _poses(arrays: dict[str, Array]) -> Array:
+    """Return the array of poses, by its name or as the only one of a fitting shape."""
+    named = [name for name in _POSE_NAMES if name in arrays]
+    fitting = named or [name for name, a in arrays.items() if a.ndim >= 2 and a.shape[-1] in (4, 7, 8)]
+    if len(fitting) != 1:
+        held = ", ".join(f"{name} {a.shape}" for name, a in arrays.items()) or "nothing"
+        raise InvalidArgument(
+            "expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8). "
+            f"The file holds: {held}."
+        )
+    return arrays[fitting[0]]
+
+
+def _chosen(poses: Array, index: int | None) -> Array:
+    """Return one demonstration: (T, 4, 4), (T, 7) or (T, 8)."""
+    single = 3 if poses.shape[-2:] == (4, 4) else 2
+    if poses.ndim == single and index is None:
+        return poses
+    if poses.ndim == single + 1:
+        if isinstance(index, int) and 0 <= index < len(poses):
+            return np.asarray(poses[index])
+        raise InvalidArgument(
+            f"index: {index!r}, expected 0 to {len(poses) - 1}: the array {poses.shape} holds "
+            f"{len(poses)} demonstrations."
+        )
+    raise InvalidArgument(
+        f"index {index!r} into an array of shape {poses.shape}: expected (T, 4, 4), (T, 7) or (T, 8) "
+        "without an index, or with one axis more and an index."
+    )
+
+
+def _split(poses: Array, order: QuatOrder | None) -> tuple[Array | None, Array, Array, list[str]]:
+    """Return time if it is among the columns, position, rotation and what was mended."""
+    if poses.ndim == 3:
+        _check_bottom_row(poses)
+        rotation, notes = from_matrices(poses[:, :3, :3], "poses")
+        return None, poses[:, :3, 3], rotation, notes
+    if order is None:
+        raise InvalidArgument(
+            f"quat_order: not stated, and an array of shape {poses.shape} does not tell it. "
+            "State quat_order='xyzw' or 'wxyz'."
+        )
+    if poses.shape[1] not in (7, 8):
+        raise InvalidArgument(f"poses: shape {poses.shape}, expected (T, 4, 4), (T, 7) or (T, 8).")
+    time = poses[:, 0] if poses.shape[1] == 8 else None
+    rotation, notes = from_quaternions(poses[:, -4:], order)
+    return time, poses[:, -7:-4], rotation, notes
+
+
+def _check_bottom_row(poses: Array) -> None:
+    wrong = ~(np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1) <= 1e-6)
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        raise InvalidArgument(
+            f"poses[{k}]: last row {poses[k, 3]}, expected [0 0 0 1]. Are the matrices transposed?"
+        )
+
+
+def _times(arrays: dict[str, Array], count: int, rate: float | None) -> Array:
+    named = [name for name in _TIME_NAMES if name in arrays]
+    if rate is None and named:
+        times = arrays[named[0]]
+        if times.shape != (count,):
+            raise InvalidArgument(f"{named[0]}: shape {times.shape}, expected ({count},), one for each pose.")
+        return times
+    if rate is None and "rate" in arrays and arrays["rate"].size == 1:
+        rate = float(arrays["rate"].reshape(-1)[0])
+    return times_at_rate(count, rate)
+
+
+def read_arrays(path: Path) -> dict[str, np.ndarray]:
+    """Return the arrays of a .npz by name, or of a .npy as "pose"; numbers as float64, text as it is.
+
+    Raises
+    ------
+    FileError
+        The file is missing or can not be read.
+    InvalidArgument
+        It is damaged, or holds anything but numbers and text.
+    """
+    try:
+        with path.open("rb") as file:
+            return _members(file) if zipfile.is_zipfile(file) else {"pose": _array(file, path.stat().st_size)}
+    except InvalidArgument:
+        raise
+    except OSError as error:
+        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+    # NumPy and zipfile meet a damaged file with a dozen types of exception, SyntaxError and zlib.error too.
+    except Exception as error:
+        raise InvalidArgument(f"not a readable NumPy file ({type(error).__name__}: {error}).") from None
+
+
+def _members(file: BinaryIO) -> dict[str, np.ndarray]:
+    arrays = {}
+    with zipfile.ZipFile(file) as archive:
+        for info in archive.infolist():
+            with archive.open(info) as member:
+                array = _array(member, info.file_size)
+            arrays[info.filename.removesuffix(".npy")] = array
+    return arrays
+
+
+def _array(file: BinaryIO, size: int) -> np.ndarray:
+    """Return one array as float64, or as text; what its header claims must fit the file."""
+    file.seek(0)
+    version = np.lib.format.read_magic(file)
+    header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a header written by Python 2
+        shape, _, dtype = header(file)
+        claimed = int(np.prod([int(n) for n in shape], dtype=object)) * dtype.itemsize
+        if dtype.hasobject or claimed > min(size, _LARGEST_ARRAY):
+            raise InvalidArgument(f"an array of {claimed} bytes of {dtype} in {size} bytes of file.")
+        file.seek(0)
+        array = np.lib.format.read_array(file, allow_pickle=False)
+    return array.astype(np.float64) if array.dtype.kind in "fiu" else array
+
+
+READER = Reader(
+    name="arrays",
+    summary="a NumPy .npy or .npz of poses: (T, 4, 4), (T, 7) or (T, 8)",
+    recognises=lambda path, head: head.startswith(b"\x93NUMPY") or path.suffix.lower() in (".npy", ".npz"),
+    bodies=bodies,
+    read=read,
+)

@@ -1,0 +1,133 @@
+"""Measured quaternions and matrices made proper rotations, with a note on how far off they were."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings.recording import Array
+
+__all__ = ["REFUSE_ABOVE", "WARN_ABOVE", "QuatOrder", "from_matrices", "from_quaternions", "sign_flips"]
+
+QuatOrder = Literal["xyzw", "wxyz"]
+
+WARN_ABOVE = 1e-3
+"""A quaternion's norm (or a matrix's singular value) further from 1 than this deserves a look."""
+REFUSE_ABOVE = 0.1
+"""Further off than this it is not a measured rotation: wrong columns, corrupt or filtered data."""
+_ROUNDING = 1e-9  # below this nothing is worth a word
+
+
+def from_quaternions(
+    quaternions: Array, order: QuatOrder, name: str = "quaternion"
+) -> tuple[Array, list[str]]:
+    """Turn quaternions into rotation matrices.
+
+    Parameters
+    ----------
+    quaternions : array (T, 4)
+        Each of norm 1 within 0.1; its sign does not matter.
+    order : "xyzw" or "wxyz"
+        Where the scalar stands; it cannot be told from the data.
+    name : str
+        How messages call the quantity.
+
+    Returns
+    -------
+    rotations : array (T, 3, 3)
+    notes : list of str
+        What was mended: renormalisation with the largest correction, sign flips with their number.
+
+    Raises
+    ------
+    InvalidArgument
+        A non-finite number, a norm off by more than 0.1 (with the index), an unknown order.
+    """
+    if order not in ("xyzw", "wxyz"):
+        raise InvalidArgument(f"quat_order: {order!r}, expected 'xyzw' or 'wxyz'.")
+    _check_finite(name, quaternions)
+    with np.errstate(over="ignore"):
+        norm = np.linalg.norm(quaternions, axis=1)
+    off = np.abs(norm - 1.0)
+    _refuse(name, "|q|", norm, off, "Check the quaternion columns; the recording may be corrupt there.")
+    unit = quaternions / norm[:, None]
+    notes = _renormalised(name, off)
+    flips = sign_flips(unit)
+    if len(flips):
+        notes.append(f"{name}: sign flips mended: {len(flips)} (the first at frame {flips[0]})")
+    return _matrices(unit if order == "wxyz" else np.roll(unit, 1, axis=1)), notes
+
+
+def from_matrices(matrices: Array, name: str = "rotation") -> tuple[Array, list[str]]:
+    """Replace each 3 x 3 matrix by the nearest rotation: the orthogonal factor of its polar decomposition.
+
+    Parameters
+    ----------
+    matrices : array (T, 3, 3)
+        Singular values within 0.1 of 1, positive determinant.
+
+    Returns
+    -------
+    rotations : array (T, 3, 3)
+    notes : list of str
+
+    Raises
+    ------
+    InvalidArgument
+        A non-finite number, a reflection, or a matrix too far from a rotation; with the index.
+    """
+    _check_finite(name, matrices)
+    matrices = np.clip(matrices, -10.0, 10.0)  # far from any rotation; keeps garbage from overflowing
+    determinant = np.linalg.det(matrices)
+    if (determinant < 0.0).any():
+        k = int(np.argmax(determinant < 0.0))
+        raise InvalidArgument(
+            f"{name}[{k}]: det(R) = {determinant[k]:.3f}, expected +1 (a reflection). Check the axis order."
+        )
+    u, singular, vt = np.linalg.svd(matrices)
+    off = np.abs(singular - 1.0).max(axis=1)
+    worst = np.take_along_axis(singular, np.abs(singular - 1.0).argmax(axis=1)[:, None], axis=1)[:, 0]
+    _refuse(name, "singular value", worst, off, "Check that the matrices are rotations without scale.")
+    return u @ vt, _renormalised(name, off)
+
+
+def sign_flips(quaternions: Array) -> np.ndarray:
+    """Return the k at which q[k] lies in the hemisphere opposite to q[k-1]; q and -q are one rotation."""
+    return np.flatnonzero(np.einsum("ij,ij->i", quaternions[1:], quaternions[:-1]) < 0.0) + 1
+
+
+def _check_finite(name: str, array: Array) -> None:
+    finite = np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
+    if not finite.all():
+        raise InvalidArgument(
+            f"{name}[{int(np.argmin(finite))}]: not finite. Cut the sample out or fill the gap."
+        )
+
+
+def _refuse(name: str, what: str, value: Array, off: Array, advice: str) -> None:
+    if (off > REFUSE_ABOVE).any():
+        k = int(np.argmax(off > REFUSE_ABOVE))
+        raise InvalidArgument(
+            f"{name}[{k}]: {what} = {value[k]:.4g}, expected 1 within {REFUSE_ABOVE:g}. {advice}"
+        )
+
+
+def _renormalised(name: str, off: Array) -> list[str]:
+    if off.max(initial=0.0) <= _ROUNDING:
+        return []
+    k = int(np.argmax(off))
+    note = f"{name}: renormalised, off by at most {off[k]:.2g} (frame {k})"
+    return [f"warning: {note}" if off[k] > WARN_ABOVE else note]
+
+
+def _matrices(wxyz: Array) -> Array:
+    """Return R (T, 3, 3) with R v = q v q* for unit quaternions (T, 4), scalar first."""
+    w, x, y, z = wxyz.T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), 2, 0)

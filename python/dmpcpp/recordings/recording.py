@@ -1,0 +1,179 @@
+"""A body's recorded motion: times, positions and orientations in SI units, with what was done to them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dmpcpp.errors import InvalidArgument
+
+__all__ = ["MIN_SAMPLES", "Array", "Axis", "Recording"]
+
+Array = NDArray[np.float64]
+Axis = Literal["x", "y", "z"]
+
+MIN_SAMPLES = 8
+"""Fewer samples do not describe a motion."""
+
+_LARGEST_EXTENT = 1000.0  # m; no motion of a person's limb, whatever its unit
+_ROTATION_TOLERANCE = 1e-6  # largest element of R^T R - I; readers orthonormalise before they get here
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """The motion of one body, checked: whoever holds a Recording holds finite, ordered, proper data.
+
+    Parameters
+    ----------
+    time : array_like (T,)
+        s, starts at 0, strictly increasing, T >= 8.
+    position : array_like (T, 3)
+        m, of the body's origin in the recording's world frame.
+    rotation : array_like (T, 3, 3)
+        Proper rotations, body -> world.
+    body : str
+        Which body of the source this is.
+    source : str
+        Where it comes from, usually a file name.
+    up_axis : "x", "y", "z" or None
+        The world axis that points up; None when neither the format nor the caller said it.
+    history : tuple of str
+        What was done to the data on the way here, one sentence a step, oldest first.
+
+    Raises
+    ------
+    InvalidArgument
+        Naming the array, the index, the value found and the value expected.
+
+    The arrays are copied to float64 and read-only; make a changed copy with `with_`.
+    """
+
+    time: Array
+    position: Array
+    rotation: Array
+    body: str = "body"
+    source: str = ""
+    up_axis: Axis | None = None
+    history: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Take the arrays over as read-only float64 and check them."""
+        object.__setattr__(self, "time", _owned("time", self.time))
+        object.__setattr__(self, "position", _owned("position", self.position))
+        object.__setattr__(self, "rotation", _owned("rotation", self.rotation))
+        object.__setattr__(self, "history", tuple(self.history))
+        _check_shapes(self.time, self.position, self.rotation)
+        _check_time(self.time)
+        _check_position(self.position)
+        _check_rotation(self.rotation)
+        if self.up_axis not in (None, "x", "y", "z"):
+            raise InvalidArgument(f"up_axis: {self.up_axis!r}, expected 'x', 'y', 'z' or None.")
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        """Return one line: what it is, how long, from where."""
+        return (
+            f"Recording({self.body!r}, {len(self)} samples, {self.duration:.3f} s, "
+            f"{self.rate:.1f} Hz, source={self.source!r})"
+        )
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample [s]."""
+        return float(self.time[-1])
+
+    @property
+    def rate(self) -> float:
+        """Return the mean sampling rate [Hz]; the samples need not be evenly spaced."""
+        return (len(self) - 1) / self.duration
+
+    def with_(self, note: str, **changes: object) -> Recording:
+        """Return a copy with the fields in `changes` replaced and `note` appended to its history."""
+        return replace(self, history=(*self.history, note), **changes)  # type: ignore[arg-type]
+
+
+def _owned(name: str, values: ArrayLike) -> Array:
+    """Return a read-only float64 C-contiguous copy."""
+    try:
+        array = np.array(values, dtype=np.float64, order="C")
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidArgument(f"{name}: not an array of numbers ({error}).") from None
+    array.setflags(write=False)
+    return array
+
+
+def _check_shapes(time: Array, position: Array, rotation: Array) -> None:
+    if time.ndim != 1:
+        raise InvalidArgument(f"time: shape {time.shape}, expected (T,).")
+    if len(time) < MIN_SAMPLES:
+        raise InvalidArgument(
+            f"time: {len(time)} samples, expected at least {MIN_SAMPLES}. Record longer, or at a higher rate."
+        )
+    for name, array, tail in (("position", position, (3,)), ("rotation", rotation, (3, 3))):
+        expected = (len(time), *tail)
+        if array.shape != expected:
+            raise InvalidArgument(
+                f"{name}: shape {array.shape}, expected {expected} as there are {len(time)} times."
+            )
+
+
+def _check_finite(name: str, array: Array) -> None:
+    if np.isfinite(array).all():
+        return
+    index = np.argwhere(~np.isfinite(array))[0]
+    where = ", ".join(str(i) for i in index)
+    raise InvalidArgument(
+        f"{name}[{where}]: {array[tuple(index)]}, expected a finite number. Cut the sample out or fill it."
+    )
+
+
+def _check_time(time: Array) -> None:
+    _check_finite("time", time)
+    with np.errstate(over="ignore"):
+        steps = np.diff(time)
+    if (steps <= 0.0).any():
+        k = int(np.argmax(steps <= 0.0)) + 1
+        raise InvalidArgument(
+            f"time[{k}]: {time[k]:.9g} s after {time[k - 1]:.9g} s, expected strictly increasing times. "
+            "Remove the repeated or misplaced samples."
+        )
+    if time[0] != 0.0:
+        raise InvalidArgument(f"time[0]: {time[0]:.9g} s, expected 0. Subtract time[0] from all times.")
+
+
+def _check_position(position: Array) -> None:
+    _check_finite("position", position)
+    with np.errstate(over="ignore"):
+        extent = np.ptp(position, axis=0)
+    axis = int(np.argmax(extent))
+    if extent[axis] > _LARGEST_EXTENT:
+        raise InvalidArgument(
+            f"position: {'xyz'[axis]} ranges over {extent[axis]:.3g} m, expected at most {_LARGEST_EXTENT:g} "
+            "m. Check the length unit and the columns."
+        )
+
+
+def _check_rotation(rotation: Array) -> None:
+    _check_finite("rotation", rotation)
+    with np.errstate(over="ignore", invalid="ignore"):
+        gram = np.swapaxes(rotation, 1, 2) @ rotation
+        error = np.abs(gram - np.eye(3)).max(axis=(1, 2))
+    off = ~(error <= _ROTATION_TOLERANCE)
+    if off.any():
+        k = int(np.argmax(off))
+        raise InvalidArgument(
+            f"rotation[{k}]: |R^T R - I| = {error[k]:.3g}, expected at most {_ROTATION_TOLERANCE:g}. "
+            "Orthonormalise the matrices."
+        )
+    determinant = np.linalg.det(rotation)
+    if (determinant < 0.0).any():
+        k = int(np.argmax(determinant < 0.0))
+        raise InvalidArgument(
+            f"rotation[{k}]: det(R) = {determinant[k]:.3f}, expected +1 (a reflection). Check the axis order."
+        )

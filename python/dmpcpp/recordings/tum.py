@@ -1,0 +1,87 @@
+"""TUM trajectories: lines of `t tx ty tz qx qy qz qw` in s and m, `#` before a comment.
+
+Source: J. Sturm et al., A benchmark for the evaluation of RGB-D SLAM systems, IROS 2012.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings.orientation import from_quaternions
+from dmpcpp.recordings.reader import Reader, pick_body
+from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.recordings.stated import Stated
+from dmpcpp.recordings.text import data_lines, number, read_text
+
+__all__ = ["READER", "bodies", "read"]
+
+_COLUMNS = ("t", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
+_BODY = "pose"
+
+
+def bodies(path: Path) -> tuple[str, ...]:
+    """Return the one body of a TUM file, "pose"."""
+    _rows(path)
+    return (_BODY,)
+
+
+def read(
+    path: Path, body: str | None, *, unit: str | float | None = None, up_axis: Axis | None = None
+) -> Recording:
+    """Return the trajectory.
+
+    Parameters
+    ----------
+    unit : str or float, optional
+        The format says metres; state another, or "m" to allow a range above 5 m.
+    up_axis : "x", "y" or "z", optional
+        The format does not say it.
+    """
+    body = pick_body(body, (_BODY,))
+    rows = _rows(path)
+    rotation, notes = from_quaternions(rows[:, 4:8], "xyzw")
+    stated = Stated(unit=unit, time_unit="s", up_axis=up_axis, metres_by_format=True)
+    return stated.recording(
+        time=rows[:, 0], position=rows[:, 1:4], rotation=rotation, body=body, source=path.name, notes=notes
+    )
+
+
+def _rows(path: Path) -> Array:
+    rows = []
+    for line, text in data_lines(read_text(path)):
+        cells = text.split()
+        if len(cells) != len(_COLUMNS):
+            raise InvalidArgument(f"line {line}: {len(cells)} columns, expected 8: {' '.join(_COLUMNS)}.")
+        rows.append([number(cell, line, name) for cell, name in zip(cells, _COLUMNS, strict=True)])
+    if not rows:
+        raise InvalidArgument(f"no lines of data, expected {' '.join(_COLUMNS)}.")
+    return np.array(rows)
+
+
+def _recognises(path: Path, head: bytes) -> bool:
+    """Return whether the first line of data is eight numbers between blanks, outside a .csv or .tsv."""
+    if path.suffix.lower() in (".csv", ".tsv"):
+        return False
+    lines = [line for line in head.split(b"\n") if line.strip() and not line.lstrip().startswith(b"#")]
+    cells = lines[0].split() if lines else []
+    return len(cells) == len(_COLUMNS) and all(_is_number(cell) for cell in cells)
+
+
+def _is_number(cell: bytes) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+READER = Reader(
+    name="tum",
+    summary="a TUM trajectory: lines of t tx ty tz qx qy qz qw, s and m",
+    recognises=_recognises,
+    bodies=bodies,
+    read=read,
+)

@@ -1,0 +1,12 @@
+"""A person's workspace onto a robot's: one similarity transform for the whole motion, and the search for it.
+
+>>> from dmpcpp import recordings, retarget
+>>> dance = recordings.clip("dance_b")                     # doctest: +SKIP
+>>> placement = retarget.place(dance, arm)                 # doctest: +SKIP
+>>> placed = placement.apply_to(dance)                     # doctest: +SKIP
+"""
+
+from dmpcpp.retarget.placement import Placement
+from dmpcpp.retarget.search import place
+
+__all__ = ["Placement", "place"]

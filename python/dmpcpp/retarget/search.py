@@ -1,0 +1,287 @@
+"""The search for a placement with which an arm can carry out a whole motion, within its joint limits.
+
+Of random placements only a few in a hundred carry a motion of a whole arm. So each candidate starts from a
+random configuration of the robot, which shall hold the middle pose of the motion; what the robot can not
+reach anyway is dropped by a look at the positions its tip can take; then single poses are solved, those far
+apart first; and only what is left is followed from the first sample to the last. The best of these is
+improved by small changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from dmpcpp import motion
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.retarget.placement import Placement
+
+__all__ = ["place"]
+
+_CLOUD = 20_000  # random configurations whose tip positions tell where the arm reaches
+_COARSE = 24  # poses that stand for the motion in the first tests
+_FOLLOWED = 150  # candidates that are followed sample by sample at most
+_ENOUGH = 8  # of them carried; no further ones are followed
+_IMPROVEMENTS = 60  # small changes tried on the best one
+_CONFIRMED = 3  # of the worthiest that are followed once more, with the default effort
+_QUICK = {"starts": 8, "anchors": 3}  # effort on a path before that
+_STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
+_STEP_ANGLE = 0.1  # rad, likewise
+_FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
+
+
+def place(
+    recording: Recording,
+    arm: Arm,
+    seed: int = 0,
+    *,
+    scale: tuple[float, float] = (0.25, 1.0),
+    floor: float = 0.05,
+    candidates: int = 3000,
+    accept: Callable[[JointTrajectory], bool] | None = None,
+) -> Placement:
+    """Search a placement of the whole motion in an arm's workspace; the same seed gives the same placement.
+
+    Parameters
+    ----------
+    recording : Recording
+        Its up axis stays up; where it has none, z is taken and the placement's note says so.
+    arm : Arm
+        Mounted upright: z of its base points up.
+    seed : int
+        Of the random candidates.
+    scale : (float, float)
+        Smallest and largest scale of positions. Larger ones are preferred, as far as the joints keep away
+        from their limits and need not be slowed down out of proportion.
+    floor : float
+        m, the lowest height of the tip above the arm's base.
+    candidates : int
+        How many random placements are tried.
+    accept : JointTrajectory -> bool, optional
+        A last word on joints that carry the whole motion, for what kinematics does not see: an arm that
+        touches itself, for instance.
+
+    Returns
+    -------
+    Placement
+        Every sample of the motion is met by inverse kinematics on one continuous path of the joints.
+
+    Raises
+    ------
+    InvalidArgument
+        A range of scale that is empty; or no candidate carries the whole motion: the message says how much
+        of it the best one carries.
+    """
+    if not 0.0 < scale[0] <= scale[1] < np.inf:
+        raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
+    if candidates < 1:
+        raise InvalidArgument(f"candidates: {candidates}, expected at least 1.")
+    search = _Search(recording, arm, floor, accept)
+    random = np.random.default_rng(seed)
+    search.follow_all(search.promising(random, scale, candidates))
+    search.improve(random, scale)
+    best = search.confirmed()
+    note = f"carries all {len(recording)} samples, {best.summary} ({candidates} candidates, seed {seed})"
+    if recording.up_axis is None:
+        note += "; up axis not stated: z taken"
+    return replace(best.placement, note=note)
+
+
+@dataclass(frozen=True)
+class _Carried:
+    """A placement that the arm carries from the first sample to the last, and at what cost."""
+
+    placement: Placement
+    limit_margin: float  # rad, smallest distance from a joint limit
+    slowdown: float  # factor on the duration that the joints' velocity limits ask for
+
+    @property
+    def worth(self) -> float:
+        """Larger is better: size, damped by joints close to their limits and by the time it takes."""
+        margin = min(1.0, 0.05 + self.limit_margin / _FULL_MARGIN)
+        return self.placement.scale * margin / np.sqrt(max(1.0, self.slowdown))
+
+    @property
+    def summary(self) -> str:
+        return (
+            f"joints at least {np.degrees(self.limit_margin):.1f} deg within their limits, "
+            f"velocities {self.slowdown:.2f} x their limits at the recorded speed"
+        )
+
+
+class _Search:
+    """One motion and one arm, and the placements found so far."""
+
+    def __init__(
+        self, recording: Recording, arm: Arm, floor: float, accept: Callable[[JointTrajectory], bool] | None
+    ) -> None:
+        # A fast hand moves further between two samples than joints can be followed with certainty.
+        recording = motion.refine(recording, _STEP_DISTANCE, _STEP_ANGLE)
+        self.time = recording.time
+        self.poses = motion.poses(recording)
+        self.up_axis: Axis = recording.up_axis or "z"
+        self.centre = (recording.position.min(axis=0) + recording.position.max(axis=0)) / 2
+        self.coarse = _far_apart(recording, _middle(recording, self.centre), _COARSE)
+        self.arm = arm
+        self.floor = floor
+        self.accept = accept
+        self.solver = InverseKinematics(arm)
+        # Poses out of reach would spend all of the default's iterations, and most candidates have some.
+        self.quick_solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
+        self.found: list[_Carried] = []
+        self.closest: Placement | None = None  # by a look at its positions
+        self.closest_share = 0.0
+        self.most_carried = 0.0
+
+    def promising(
+        self, random: np.random.Generator, scale: tuple[float, float], count: int
+    ) -> list[Placement]:
+        """Return the candidates of which every coarse pose can be solved, the largest first."""
+        joints = _random_joints(self.arm, random, _CLOUD)
+        reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
+        # Twice the usual distance between neighbours in the cloud: closer than that, the arm reaches.
+        near = 2.0 * float(np.median(reached.query(reached.data[:500], k=2)[0][:, 1]))
+        able = []
+        for placement in self._candidates(random, scale, count):
+            share = self._share_near(placement, reached, near)
+            if share > self.closest_share:
+                self.closest, self.closest_share = placement, share
+            if share == 1.0 and self._solves(placement):
+                able.append(placement)
+        return sorted(able, key=lambda placement: -placement.scale)
+
+    def follow_all(self, promising: list[Placement]) -> None:
+        """Follow one after the other until enough are carried from end to end."""
+        for placement in promising[:_FOLLOWED]:
+            self._follow(placement, **_QUICK)
+            if len(self.found) == _ENOUGH:
+                return
+
+    def improve(self, random: np.random.Generator, scale: tuple[float, float]) -> None:
+        """Try small changes, growing smaller, on the worthiest so far."""
+        for step in np.geomspace(1.0, 0.1, _IMPROVEMENTS if self.found else 0):
+            placement = _changed(self.ranked()[0].placement, random, step, scale)
+            if self._above_floor(placement) and self._solves(placement):
+                self._follow(placement, **_QUICK)
+
+    def ranked(self) -> list[_Carried]:
+        """Return what was found, the worthiest first."""
+        return sorted(self.found, key=lambda carried: -carried.worth)
+
+    def confirmed(self) -> _Carried:
+        """Return the worthiest of those that the default effort carries as well: its path may be another."""
+        again: list[_Carried] = []
+        for carried in self.ranked():
+            confirmed = self._follow(carried.placement)
+            again += [confirmed] if confirmed else []
+            if len(again) == _CONFIRMED:
+                break
+        if again:
+            return max(again, key=lambda carried: carried.worth)
+        raise InvalidArgument(
+            f"recording: no placement found with which arm {self.arm.name!r} carries the whole motion; "
+            f"{self._shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
+        )
+
+    def _shortfall(self) -> str:
+        if self.most_carried == 1.0:
+            return "what the joints could follow was not accepted"
+        if self.closest is not None:
+            self._follow(self.closest, **_QUICK)
+        return f"the best one carries {100 * self.most_carried:.0f} % of it"
+
+    def _candidates(
+        self, random: np.random.Generator, scale: tuple[float, float], count: int
+    ) -> Iterator[Placement]:
+        """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
+        middle = self.poses[self.coarse[0]]
+        held = self.arm.forward_kinematics(_random_joints(self.arm, random, count))
+        yaws = random.uniform(-np.pi, np.pi, count)
+        scales = random.uniform(*scale, count)
+        for pose, yaw, size in zip(held, yaws, scales, strict=True):
+            free = Placement(np.zeros(3), yaw, size, up_axis=self.up_axis, centre=self.centre)
+            unplaced = free.apply(middle)
+            yield replace(
+                free,
+                position=pose[:3, 3] - unplaced[:3, 3],
+                tool_rotation=_proper(unplaced[:3, :3].T @ pose[:3, :3]),
+            )
+
+    def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
+        """Return the share of the coarse positions that the tip can take; below 1 if the motion dips too low."""
+        distance, _ = reached.query(placement.apply(self.poses[self.coarse])[:, :3, 3])
+        share = float(np.mean(distance < near))
+        return share if self._above_floor(placement) else 0.9 * share
+
+    def _above_floor(self, placement: Placement) -> bool:
+        return bool(placement.apply(self.poses)[:, 2, 3].min() >= self.floor)
+
+    def _solves(self, placement: Placement) -> bool:
+        """Whether each coarse pose can be solved by itself; gives up at the first third with a failure."""
+        thirds = np.array_split(placement.apply(self.poses[self.coarse]), 3)
+        return all(self.quick_solver.solve_many(third).solved == len(third) for third in thirds)
+
+    def _follow(self, placement: Placement, **effort: int) -> _Carried | None:
+        """Follow the whole motion; what is carried and accepted joins the found ones."""
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **effort)
+        report = joints.report
+        self.most_carried = max(self.most_carried, report.solved / len(self.time))
+        if not report.complete or not (self.accept is None or self.accept(joints)):
+            return None
+        carried = _Carried(placement, report.limit_margin, report.velocity_ratio)
+        self.found.append(carried)
+        return carried
+
+
+def _random_joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
+    """Return joints (count, n) drawn evenly from the ranges; from one turn for a joint without limits."""
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
+    return random.uniform(lower, upper, (count, len(lower)))
+
+
+def _middle(recording: Recording, centre: Array) -> int:
+    """Return the sample closest to the middle of the path."""
+    return int(np.argmin(np.linalg.norm(recording.position - centre, axis=1)))
+
+
+def _far_apart(recording: Recording, first: int, count: int) -> list[int]:
+    """Return samples each as far as can be from those before it: the extremes of the motion come first.
+
+    Distance counts 1 rad as 0.2 m, about what a wrist needs of a hand's reach.
+    """
+    orientation = Rotation.from_matrix(recording.rotation)
+    chosen = [first]
+    nearest = np.full(len(recording), np.inf)
+    while len(chosen) < min(count, len(recording)):
+        last = chosen[-1]
+        moved = np.linalg.norm(recording.position - recording.position[last], axis=1)
+        turned = (orientation[last].inv() * orientation).magnitude()
+        nearest = np.minimum(nearest, moved + 0.2 * turned)
+        chosen.append(int(np.argmax(nearest)))
+    return chosen
+
+
+def _changed(
+    placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]
+) -> Placement:
+    """Return a neighbour: up to about 5 cm, 10 deg and 10 % away for a step of 1."""
+    turn = Rotation.from_rotvec(random.normal(0.0, 0.15 * step, 3)).as_matrix()
+    return replace(
+        placement,
+        position=placement.position + random.normal(0.0, 0.04 * step, 3),
+        yaw=placement.yaw + random.normal(0.0, 0.15 * step),
+        scale=float(np.clip(placement.scale * np.exp(random.normal(0.02, 0.1 * step)), *scale)),
+        tool_rotation=_proper(placement.tool_rotation @ turn),
+    )
+
+
+def _proper(rotation: Array) -> Array:
+    """Return the rotation with the rounding of products taken out."""
+    return Rotation.from_matrix(rotation).as_matrix()

@@ -1,0 +1,601 @@
+"""Recordings: what each reader yields from real and written files, and what it refuses."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from dmpcpp import recordings
+from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
+from dmpcpp.recordings import Recording
+
+TURNS = Rotation.from_rotvec(np.linspace([0.0, 0.0, 0.0], [0.4, -1.0, 2.0], 12))
+TIMES = 0.1 * np.arange(12.0)
+POSITIONS = np.column_stack([np.sin(TIMES), np.cos(TIMES), TIMES])
+
+
+def made(**changes) -> Recording:
+    return Recording(**{"time": TIMES, "position": POSITIONS, "rotation": TURNS.as_matrix(), **changes})
+
+
+def poses() -> np.ndarray:
+    pose = np.tile(np.eye(4), (12, 1, 1))
+    pose[:, :3, :3], pose[:, :3, 3] = TURNS.as_matrix(), POSITIONS
+    return pose
+
+
+def rows(order="xyzw", scale=1.0) -> np.ndarray:
+    """Return t x y z and the quaternion."""
+    quaternion = TURNS.as_quat(scalar_first=order == "wxyz")
+    return np.column_stack([TIMES, scale * POSITIONS, quaternion])
+
+
+def write_csv(path, table, header, delimiter=","):
+    lines = [delimiter.join(header)] if header else []
+    lines += [delimiter.join(repr(float(v)) for v in row) for row in table]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def assert_same_motion(recording, position=POSITIONS, time=TIMES):
+    np.testing.assert_allclose(recording.time, time, atol=1e-12)
+    np.testing.assert_allclose(recording.position, position, atol=1e-12)
+    np.testing.assert_allclose(recording.rotation, TURNS.as_matrix(), atol=1e-12)
+
+
+# ---------------------------------------------------------------- the value
+
+
+def test_a_recording_knows_its_length_duration_and_rate():
+    recording = made(body="hand")
+    assert len(recording) == 12
+    assert recording.duration == pytest.approx(1.1)
+    assert recording.rate == pytest.approx(10.0)
+    assert "'hand', 12 samples, 1.100 s" in repr(recording)
+
+
+def test_a_recording_does_not_change_with_the_arrays_it_was_made_from():
+    position = POSITIONS.copy()
+    recording = made(position=position)
+    position[:] = 0.0
+    assert recording.position[-1, 2] == TIMES[-1]
+    with pytest.raises(ValueError, match="read-only"):
+        recording.position[0, 0] = 1.0
+
+
+def test_a_changed_copy_says_what_was_done_and_leaves_the_original():
+    recording = made()
+    moved = recording.with_("moved by 1 m", position=POSITIONS + 1.0)
+    assert moved.history == ("moved by 1 m",)
+    assert recording.history == ()
+
+
+def corrupted(array, index, value):
+    changed = np.array(array, dtype=float)
+    changed[index] = value
+    return changed
+
+
+REFUSED_VALUES = {
+    "nan position": ({"position": corrupted(POSITIONS, (4, 1), np.nan)}, r"position\[4, 1\]: nan"),
+    "inf time": ({"time": corrupted(TIMES, 11, np.inf)}, r"time\[11\]: inf"),
+    "nan rotation": (
+        {"rotation": corrupted(TURNS.as_matrix(), (3, 2, 2), np.nan)},
+        r"rotation\[3, 2, 2\]: nan",
+    ),
+    "time backwards": ({"time": corrupted(TIMES, 5, 0.35)}, r"time\[5\]: 0\.35 s after 0\.4 s"),
+    "time repeated": ({"time": corrupted(TIMES, 5, 0.4)}, r"time\[5\]: 0\.4 s after 0\.4 s"),
+    "time not from zero": ({"time": TIMES + 3.0}, r"time\[0\]: 3 s, expected 0"),
+    "seven samples": (
+        {"time": TIMES[:7], "position": POSITIONS[:7], "rotation": TURNS.as_matrix()[:7]},
+        "7 samples, expected at least 8",
+    ),
+    "one position short": ({"position": POSITIONS[:11]}, r"position: shape \(11, 3\), expected \(12, 3\)"),
+    "reflection": (
+        {"rotation": corrupted(TURNS.as_matrix(), 6, np.diag([1.0, 1.0, -1.0]))},
+        r"rotation\[6\]: det\(R\) = -1\.000, expected \+1 \(a reflection\)",
+    ),
+    "scaled rotation": ({"rotation": 1.01 * TURNS.as_matrix()}, r"rotation\[0\]: \|R\^T R - I\| = 0\.0201"),
+    "huge rotation": ({"rotation": 1e200 * TURNS.as_matrix()}, r"rotation\[0\]"),
+    "kilometres": ({"position": 1e300 * POSITIONS}, r"ranges over .* Check the length unit"),
+    "text": ({"position": "abc"}, "position: not an array of numbers"),
+    "up axis": ({"up_axis": "up"}, "up_axis: 'up', expected 'x', 'y', 'z' or None"),
+}
+
+
+@pytest.mark.parametrize(("changes", "message"), REFUSED_VALUES.values(), ids=REFUSED_VALUES)
+def test_a_recording_refuses_bad_data_and_names_the_place(changes, message):
+    with pytest.raises(InvalidArgument, match=message):
+        made(**changes)
+
+
+# ---------------------------------------------------------------- choosing reader and body
+
+
+def test_a_missing_file_is_a_file_error_with_its_path(tmp_path):
+    with pytest.raises(FileError, match=r"nix\.csv: can not be read \(No such file"):
+        recordings.load(tmp_path / "nix.csv")
+
+
+def test_a_folder_is_a_file_error(tmp_path):
+    with pytest.raises(FileError, match="Is a directory"):
+        recordings.load(tmp_path)
+
+
+def test_an_unknown_format_and_one_that_can_not_be_told_list_the_formats(tmp_path):
+    path = tmp_path / "words.txt"
+    path.write_text("these are words\n")
+    with pytest.raises(InvalidArgument, match=r"can not be told.*'deepmimic'.*'tum'.*'table'.*'arrays'"):
+        recordings.load(path)
+    with pytest.raises(InvalidArgument, match=r"format: 'xml', expected one of.*'tum'"):
+        recordings.load(path, format="xml")
+
+
+def test_an_unknown_body_is_refused_with_those_that_exist(tmp_path):
+    header = [f"{b}{c}" for b in ("hand_", "cup_") for c in ("x", "y", "z", "qx", "qy", "qz", "qw")]
+    table = np.column_stack([TIMES, rows()[:, 1:], rows()[:, 1:]])
+    path = write_csv(tmp_path / "two.csv", table, ["time", *header])
+    assert recordings.bodies(path) == ("hand", "cup")
+    with pytest.raises(InvalidArgument, match=r"no body 'foot' in the file. It holds: hand, cup"):
+        recordings.load(path, body="foot")
+    with pytest.raises(
+        InvalidArgument, match=r"no body named and the file holds several. It holds: hand, cup"
+    ):
+        recordings.load(path)
+
+
+def test_a_statement_that_the_format_does_not_take_is_refused(tmp_path):
+    path = write_csv(tmp_path / "a.tum", rows(), [], " ")
+    with pytest.raises(
+        InvalidArgument, match="quat_order: the format 'tum' does not take it; it takes: unit"
+    ):
+        recordings.load(path, quat_order="wxyz")
+
+
+# ---------------------------------------------------------------- DeepMimic clips
+
+
+@pytest.fixture(scope="module")
+def clips():
+    pytest.importorskip("pybullet_data")
+    return recordings.clip_names()
+
+
+def clip_frames(name) -> np.ndarray:
+    return np.array(json.loads(recordings.clip_path(name).read_text())["Frames"])
+
+
+def written(tmp_path, frames):
+    path = tmp_path / "clip.txt"
+    path.write_text(json.dumps({"Loop": "none", "Frames": np.asarray(frames).tolist()}))
+    return path
+
+
+def test_fifteen_clips_ship_with_pybullet_and_an_unknown_name_lists_them(clips):
+    assert len(clips) == 15
+    with pytest.raises(InvalidArgument, match=r"no clip 'samba'.*backflip.*dance_b.*walk"):
+        recordings.clip("samba")
+
+
+def test_without_pybullet_the_error_says_what_to_install(monkeypatch):
+    monkeypatch.setattr("dmpcpp.recordings.clips.find_spec", lambda name: None)
+    with pytest.raises(MissingDependency, match=r'pip install "dmpcpp\[sim\]"'):
+        recordings.clip("dance_b")
+
+
+def test_dance_b_is_the_clean_gesture_it_is_known_as(clips):
+    recording = recordings.clip("dance_b")
+    assert len(recording) == 153
+    assert recording.rate == pytest.approx(60.0, rel=1e-3)
+    assert recording.up_axis == "y"
+    path_length = np.linalg.norm(np.diff(recording.position, axis=0), axis=1).sum()
+    assert path_length == pytest.approx(4.6, abs=0.1)
+
+
+def test_the_figures_joints_are_the_bodies(clips):
+    bodies = recordings.bodies(recordings.clip_path("walk"))
+    assert {"right_hand", "left_hand", "chest", "neck", "left_ankle"} < set(bodies)
+    with pytest.raises(InvalidArgument, match=r"no body 'tail'.*right_hand, left_"):
+        recordings.clip("walk", "tail")
+
+
+@pytest.fixture(scope="module")
+def humanoid(clips):
+    """PyBullet's own figure: set a frame, read the poses of its joints."""
+    pybullet = pytest.importorskip("pybullet")
+    client = pybullet.connect(pybullet.DIRECT)
+    urdf = recordings.clip_path("walk").parents[2] / "humanoid" / "humanoid.urdf"
+    figure = pybullet.loadURDF(str(urdf), globalScaling=0.25, physicsClientId=client)
+    names = [pybullet.getJointInfo(figure, k, physicsClientId=client)[1].decode() for k in range(15)]
+    links = {name.replace("wrist", "hand"): k for k, name in enumerate(names)}
+
+    def pose_of(frame):
+        xyzw = lambda q: np.roll(q / np.linalg.norm(q), -1).tolist()  # noqa: E731
+        pybullet.resetBasePositionAndOrientation(
+            figure, frame[1:4].tolist(), xyzw(frame[4:8]), physicsClientId=client
+        )
+        turns = {"chest": 8, "neck": 12, "right_hip": 16, "right_ankle": 21, "right_shoulder": 25}
+        turns |= {"left_hip": 30, "left_ankle": 35, "left_shoulder": 39}
+        for name, first in turns.items():
+            pybullet.resetJointStateMultiDof(
+                figure, links[name], xyzw(frame[first : first + 4]), physicsClientId=client
+            )
+        for name, column in {"right_knee": 20, "right_elbow": 29, "left_knee": 34, "left_elbow": 43}.items():
+            pybullet.resetJointState(figure, links[name], frame[column], physicsClientId=client)
+        states = pybullet.getLinkStates(
+            figure, range(15), computeForwardKinematics=True, physicsClientId=client
+        )
+        return {name: states[k][4:6] for name, k in links.items()}
+
+    yield pose_of
+    pybullet.disconnect(client)
+
+
+@pytest.mark.parametrize("name", ["dance_b", "spinkick", "getup_faceup", "walk", "punch"])
+def test_forward_kinematics_agrees_with_pybullets_figure(humanoid, name):
+    frames = clip_frames(name)
+    figure = {body: recordings.clip(name, body) for body in recordings.bodies(recordings.clip_path(name))}
+    for k in range(0, len(frames), 11):
+        for body, (position, quaternion) in humanoid(frames[k]).items():
+            np.testing.assert_allclose(figure[body].position[k], position, atol=2e-6, err_msg=f"{body} {k}")
+            turned = Rotation.from_matrix(figure[body].rotation[k]).inv() * Rotation.from_quat(quaternion)
+            assert turned.magnitude() < 5e-6, (body, k)
+
+
+def test_the_last_frame_counts_although_its_duration_is_zero(clips):
+    frames = clip_frames("punch")
+    assert frames[-1, 0] == 0.0
+    recording = recordings.clip("punch")
+    assert len(recording) == len(frames)
+    assert recording.duration == pytest.approx(frames[:, 0].sum())
+
+
+def test_a_frame_of_duration_zero_in_the_middle_is_refused(clips, tmp_path):
+    frames = clip_frames("dance_b")
+    frames[20, 0] = 0.0
+    with pytest.raises(InvalidArgument, match=r"time\[21\].*expected strictly increasing"):
+        recordings.load(written(tmp_path, frames), "right_hand")
+
+
+def test_an_irregular_frame_keeps_its_own_duration(clips):
+    steps = np.diff(recordings.clip("roll", "chest").time)
+    assert steps.max() == pytest.approx(0.032666)
+    assert np.median(steps) == pytest.approx(0.016666)
+
+
+@pytest.mark.parametrize(("name", "rate"), [("dance_b", 60), ("punch", 30), ("spin", 24), ("backflip", 16)])
+def test_each_clip_has_the_rate_its_frames_say(clips, name, rate):
+    assert recordings.clip(name).rate == pytest.approx(rate, rel=1e-3)
+
+
+def test_non_unit_quaternions_are_refused_only_in_the_chain_of_the_body(clips):
+    assert recordings.clip("kick", "right_hand").position.shape == (47, 3)
+    with pytest.raises(InvalidArgument, match=r"kick.txt: right_hip quaternion\[\d+\]: \|q\| = "):
+        recordings.clip("kick", "right_knee")
+    with pytest.raises(InvalidArgument, match=r"roll.txt: right_shoulder quaternion\[\d+\]: \|q\| = "):
+        recordings.clip("roll", "right_hand")
+
+
+def test_a_slightly_non_unit_quaternion_is_renormalised_with_a_warning_in_the_history(clips):
+    history = recordings.clip("jump").history
+    assert any(h.startswith("warning: right_shoulder quaternion: renormalised, off by") for h in history)
+
+
+def test_sign_flips_between_frames_leave_the_motion_untouched(clips, tmp_path):
+    frames = clip_frames("dance_b")
+    plain = recordings.load(written(tmp_path, frames), "right_hand")
+    for first in (4, 8, 25):
+        frames[30:60, first : first + 4] *= -1.0
+    flipped = recordings.load(written(tmp_path, frames), "right_hand")
+    np.testing.assert_array_equal(flipped.rotation, plain.rotation)
+    np.testing.assert_array_equal(flipped.position, plain.position)
+    assert "root quaternion: sign flips mended: 2 (the first at frame 30)" in flipped.history
+
+
+def test_the_hands_orientation_is_the_forearms_and_the_history_says_so(clips):
+    hand, elbow = recordings.clip("dance_b", "left_hand"), recordings.clip("dance_b", "left_elbow")
+    np.testing.assert_array_equal(hand.rotation, elbow.rotation)
+    assert any("forearm" in step for step in hand.history)
+
+
+def test_damaged_frames_are_named(clips, tmp_path):
+    frames = clip_frames("dance_b").tolist()
+    frames[7] = frames[7][:40]
+    path = tmp_path / "clip.txt"
+    path.write_text(json.dumps({"Frames": frames}))
+    with pytest.raises(InvalidArgument, match=r"clip.txt: Frames\[7\]: 40 numbers, expected 44"):
+        recordings.load(path, "right_hand")
+    frames[7] = [*frames[6][:43], "0.5"]
+    path.write_text(json.dumps({"Frames": frames}))
+    with pytest.raises(InvalidArgument, match=r"Frames\[7\]\[43\]: str, expected a finite number"):
+        recordings.load(path, "right_hand")
+
+
+@pytest.mark.parametrize(
+    "text", ["{", "[" * 100000, '{"Frames": 1}', "{" + '"a":{' * 50000, '{"Frames": []}']
+)
+def test_json_that_is_no_clip_is_refused(tmp_path, text):
+    path = tmp_path / "clip.json"
+    path.write_text(text)
+    with pytest.raises(InvalidArgument, match=r"not JSON|not a DeepMimic clip"):
+        recordings.load(path, "right_hand", format="deepmimic")
+
+
+def test_numbers_too_large_for_a_float_are_refused(clips, tmp_path):
+    frames = clip_frames("dance_b").tolist()
+    for huge in ("1" + "0" * 400, "1" + "0" * 5000, "1e999", "NaN"):
+        text = json.dumps({"Frames": frames}).replace(repr(frames[3][1]), huge, 1)
+        path = tmp_path / "clip.txt"
+        path.write_text(text)
+        with pytest.raises(InvalidArgument, match=r"clip\.txt"):
+            recordings.load(path, "right_hand")
+
+
+# ---------------------------------------------------------------- TUM
+
+
+def test_a_tum_file_reads_in_seconds_from_its_first_sample(tmp_path):
+    table = rows()
+    table[:, 0] += 1305031098.0
+    path = write_csv(tmp_path / "a.txt", table, [], " ")
+    path.write_text("# a comment\n\n" + path.read_text().replace("\n", "\r\n"))
+    recording = recordings.load(path, up_axis="z")
+    np.testing.assert_allclose(recording.position, POSITIONS, atol=1e-12)
+    np.testing.assert_allclose(recording.time, TIMES, atol=1e-6)
+    assert recording.up_axis == "z"
+    assert any("time counted from the first sample at 1.3050311e+09 s" in step for step in recording.history)
+
+
+def test_a_tum_line_with_a_missing_or_bad_number_is_named(tmp_path):
+    path = tmp_path / "a.tum"
+    path.write_text("# comment\n" + "0 0 0 0 0 0 0 1\n" + "1 0 0 0 0 0 0\n")
+    with pytest.raises(InvalidArgument, match=r"a.tum: line 3: 7 columns, expected 8"):
+        recordings.load(path)
+    path.write_text("0 0 0 0 0 0 0 1\n0.1 0 abc 0 0 0 0 1\n")
+    with pytest.raises(InvalidArgument, match="line 2, ty: 'abc', expected a number"):
+        recordings.load(path)
+
+
+def test_the_hand_held_camera_reads_as_recorded(recorded):
+    truth = recordings.load(recorded / "tum_evo" / "freiburg1_xyz-groundtruth.txt")
+    assert len(truth) == 3000
+    assert truth.rate == pytest.approx(100.0, rel=0.01)
+    assert np.diff(truth.time).max() == pytest.approx(0.11, abs=0.01)  # the gap
+    np.testing.assert_allclose(truth.position[0], [1.3563, 0.6305, 1.6380])
+    assert any("renormalised, off by at most 8.4e-05" in step for step in truth.history)
+
+
+def test_metres_that_are_millimetres_are_refused_with_the_remedy(tmp_path):
+    path = write_csv(tmp_path / "a.tum", rows(scale=1000.0), [], " ")
+    with pytest.raises(InvalidArgument, match=r"z ranges over 1100 m, more than 5.*State unit='mm'"):
+        recordings.load(path)
+    recording = recordings.load(path, unit="mm")
+    assert_same_motion(recording)
+    assert "positions converted from mm to m" in recording.history
+
+
+def test_a_large_range_is_accepted_when_the_caller_insists(tmp_path):
+    path = write_csv(tmp_path / "a.tum", rows(scale=10.0), [], " ")
+    assert_same_motion(recordings.load(path, unit="m"), 10.0 * POSITIONS)
+
+
+def test_an_unknown_unit_is_refused(tmp_path):
+    path = write_csv(tmp_path / "a.tum", rows(), [], " ")
+    for unit in ("furlong", -1.0, True, float("nan")):
+        with pytest.raises(
+            InvalidArgument, match=r"unit: .*, expected one of m, cm, mm or a positive factor"
+        ):
+            recordings.load(path, unit=unit)
+
+
+# ---------------------------------------------------------------- tables
+
+HEADER = ["time", "x", "y", "z", "qx", "qy", "qz", "qw"]
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", " "])
+def test_named_columns_are_found_whatever_stands_between_them(tmp_path, delimiter):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER, delimiter)
+    assert recordings.bodies(path) == ("pose",)
+    recording = recordings.load(path)
+    assert_same_motion(recording)
+    assert "no length unit stated: positions taken as metres" in recording.history
+
+
+def test_the_names_of_the_quaternion_columns_tell_their_order(tmp_path):
+    header = ["Timestamp", "hand_tx", "hand_ty", "hand_tz", "hand_qw", "hand_qx", "hand_qy", "hand_qz"]
+    path = write_csv(tmp_path / "a.csv", rows("wxyz"), header)
+    recording = recordings.load(path, body="hand")
+    assert_same_motion(recording)
+    assert recording.body == "hand"
+
+
+def test_columns_can_be_stated_by_name(tmp_path):
+    header = ["sec", "east", "north", "up", "a", "b", "c", "d"]
+    path = write_csv(tmp_path / "a.csv", rows(), header)
+    with pytest.raises(InvalidArgument, match=r"no body with columns.*State the columns"):
+        recordings.load(path)
+    stated = dict(zip(HEADER, header, strict=True))
+    assert_same_motion(recordings.load(path, columns=stated))
+
+
+def test_columns_can_be_stated_by_number_for_a_table_without_header(tmp_path):
+    path = write_csv(tmp_path / "a.txt", rows(), [], " ")
+    columns = {name: k for k, name in enumerate(HEADER)}
+    assert_same_motion(recordings.load(path, format="table", columns=columns, delimiter=" "))
+
+
+def test_times_in_other_units_are_stated_and_a_slip_is_caught(tmp_path):
+    table = rows()
+    table[:, 0] *= 1000.0
+    path = write_csv(tmp_path / "a.csv", table, HEADER)
+    with pytest.raises(InvalidArgument, match=r"100 s between samples.*State time_unit='ms'"):
+        recordings.load(path)
+    assert_same_motion(recordings.load(path, time_unit="ms"))
+
+
+def test_a_table_without_times_needs_a_rate(tmp_path):
+    path = write_csv(tmp_path / "a.csv", rows()[:, 1:], HEADER[1:])
+    with pytest.raises(InvalidArgument, match=r"rate: the file holds no times.*rate=100"):
+        recordings.load(path)
+    assert_same_motion(recordings.load(path, rate=10.0))
+    for rate in (0, -5, float("nan"), "fast", True):
+        with pytest.raises(InvalidArgument, match=r"rate: .*, expected a sampling rate in Hz"):
+            recordings.load(path, rate=rate)
+
+
+def test_cells_that_are_empty_missing_or_no_number_are_named(tmp_path):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER)
+    lines = path.read_text().splitlines()
+    for bad, message in {
+        "0.1,,1,0,0,0,0,1": "line 3, column 'x': an empty cell",
+        "0.1,1,nan,0,0,0,0,1": "line 3, column 'y': nan, expected a finite number",
+        "0.1,1,2": "line 3, column 'z': the line ends after 3 cells",
+        "0.1,1,2,'3,0,0,0,1": "line 3, column 'z': \"'3\", expected a number",
+    }.items():
+        path.write_text("\n".join([*lines[:2], bad, *lines[3:]]))
+        with pytest.raises(InvalidArgument, match=message):
+            recordings.load(path)
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"x": 1}, "columns: missing y, z, qx"),
+        (dict.fromkeys(HEADER, "nix"), "no column 'nix' in the header"),
+        (dict.fromkeys(HEADER, -1), "columns: -1, expected"),
+        ({**dict.fromkeys(HEADER, 0), "w": 3}, "columns: unknown 'w'"),
+        (dict.fromkeys(HEADER, 99), "line 1, column 99: the line ends after 8 cells"),
+    ],
+)
+def test_stated_columns_that_do_not_exist_are_refused(tmp_path, columns, message):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER)
+    with pytest.raises(InvalidArgument, match=message):
+        recordings.load(path, columns=columns)
+
+
+def test_text_that_is_not_utf_8_or_binary_is_refused_with_its_line(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"time,x\n1,\xb0\n")
+    with pytest.raises(InvalidArgument, match="line 2: byte 0xb0 is not UTF-8"):
+        recordings.load(path)
+    path.write_bytes(b"time,x\n\n1,\x00\n")
+    with pytest.raises(InvalidArgument, match="line 3: binary content"):
+        recordings.load(path)
+
+
+def test_hand_guided_unscrewing_reads_by_column_number(recorded):
+    columns = {"time": 0, "x": 1, "y": 2, "z": 3, "qw": 10, "qx": 11, "qy": 12, "qz": 13}
+    recording = recordings.load(
+        recorded / "gsutanto_unscrewing" / "03.txt", format="table", columns=columns, unit="m"
+    )
+    assert recording.rate == pytest.approx(300.0, rel=1e-3)
+    orientation = Rotation.from_matrix(recording.rotation)
+    turned = (orientation[0].inv() * orientation).magnitude().max()
+    assert np.degrees(turned) == pytest.approx(180.0, abs=1.0)
+    wrong = {**columns, "qw": 9, "qx": 10, "qy": 11, "qz": 12}
+    with pytest.raises(InvalidArgument, match=r"\|q\| = .*Check the quaternion columns"):
+        recordings.load(recorded / "gsutanto_unscrewing" / "03.txt", format="table", columns=wrong)
+
+
+# ---------------------------------------------------------------- NumPy files
+
+
+def test_a_npz_of_times_and_poses_reads_exactly(tmp_path):
+    np.savez(tmp_path / "a.npz", time=TIMES + 7.0, pose=poses(), units="m")
+    recording = recordings.load(tmp_path / "a.npz")
+    assert_same_motion(recording)
+    assert recording.body == "pose"
+
+
+def test_a_npz_may_hold_the_rate_in_place_of_times(tmp_path):
+    np.savez(tmp_path / "a.npz", rate=10, poses=poses())
+    assert_same_motion(recordings.load(tmp_path / "a.npz"))
+
+
+def test_a_npy_of_poses_needs_its_rate(tmp_path):
+    np.save(tmp_path / "a.npy", poses())
+    with pytest.raises(InvalidArgument, match="rate: the file holds no times"):
+        recordings.load(tmp_path / "a.npy")
+    assert_same_motion(recordings.load(tmp_path / "a.npy", rate=10))
+
+
+@pytest.mark.parametrize("order", ["xyzw", "wxyz"])
+def test_seven_or_eight_columns_need_the_quaternion_order(tmp_path, order):
+    np.save(tmp_path / "eight.npy", rows(order))
+    np.save(tmp_path / "seven.npy", rows(order)[:, 1:])
+    with pytest.raises(InvalidArgument, match="quat_order: not stated"):
+        recordings.load(tmp_path / "eight.npy")
+    with pytest.raises(InvalidArgument, match="quat_order: 'wzyx', expected 'xyzw' or 'wxyz'"):
+        recordings.load(tmp_path / "eight.npy", quat_order="wzyx")
+    assert_same_motion(recordings.load(tmp_path / "eight.npy", quat_order=order))
+    assert_same_motion(recordings.load(tmp_path / "seven.npy", quat_order=order, rate=10))
+
+
+def test_transposed_or_reflected_matrices_are_refused_with_their_index(tmp_path):
+    np.savez(tmp_path / "a.npz", time=TIMES, pose=np.swapaxes(poses(), 1, 2))
+    with pytest.raises(InvalidArgument, match=r"poses\[0\]: last row .* transposed"):
+        recordings.load(tmp_path / "a.npz")
+    mirrored = poses()
+    mirrored[5, :3, :3] *= -1.0
+    np.savez(tmp_path / "a.npz", time=TIMES, pose=mirrored)
+    with pytest.raises(
+        InvalidArgument, match=r"poses\[5\]: det\(R\) = -1\.000, expected \+1 \(a reflection\)"
+    ):
+        recordings.load(tmp_path / "a.npz")
+
+
+def test_nearly_orthonormal_matrices_become_the_nearest_rotation(tmp_path):
+    sheared = poses()
+    sheared[:, :3, :3] = sheared[:, :3, :3] @ np.diag([1.002, 1.0, 0.999])
+    np.savez(tmp_path / "a.npz", time=TIMES, pose=sheared)
+    recording = recordings.load(tmp_path / "a.npz")
+    assert_same_motion(recording)
+    assert any(
+        step.startswith("warning: poses: renormalised, off by at most 0.002") for step in recording.history
+    )
+    sheared[4, :3, :3] *= 1.2
+    np.savez(tmp_path / "a.npz", time=TIMES, pose=sheared)
+    with pytest.raises(InvalidArgument, match=r"poses\[4\]: singular value = 1\.2"):
+        recordings.load(tmp_path / "a.npz")
+
+
+def test_hand_guided_pouring_reads_by_index_in_centimetres(recorded):
+    path = recorded / "robotasks_clfd" / "pouring.npy"
+    stated = {"rate": 100.0, "quat_order": "wxyz", "unit": "cm"}
+    ends = [recordings.load(path, index=k, **stated).position[-1] for k in range(9)]
+    np.testing.assert_allclose(
+        ends, np.tile(ends[0], (9, 1)), atol=1e-9
+    )  # they were shifted to a common point
+    assert np.linalg.norm(ends[0]) < 1.5
+    for index in (None, 9, -1, "a"):
+        with pytest.raises(InvalidArgument, match=r"expected 0 to 8: the array .* holds 9 demonstrations"):
+            recordings.load(path, index=index, **stated)
+    with pytest.raises(InvalidArgument, match="State unit='mm' or 'cm'"):
+        recordings.load(path, index=0, rate=100.0, quat_order="wxyz")
+
+
+@pytest.mark.parametrize(
+    "array",
+    [
+        np.array([{"a": 1}] * 9, dtype=object),
+        np.array(["text"]),
+        np.zeros((12, 5)),
+        np.zeros(()),
+        np.zeros((0, 4, 4)),
+    ],
+    ids=["objects", "text", "five columns", "scalar", "empty"],
+)
+def test_arrays_that_hold_no_poses_are_refused(tmp_path, array):
+    np.save(tmp_path / "a.npy", array)
+    with pytest.raises(InvalidArgument, match=r"a\.npy"):
+        recordings.load(tmp_path / "a.npy", rate=100.0, quat_order="xyzw")
+
+
+def test_a_header_that_claims_more_than_the_file_holds_takes_no_memory(tmp_path):
+    np.save(tmp_path / "a.npy", poses())
+    content = (tmp_path / "a.npy").read_bytes()
+    (tmp_path / "a.npy").write_bytes(content.replace(b"(12, 4, 4), }         ", b"(12000000000, 4, 4), }"))
+    with pytest.raises(InvalidArgument, match="an array of 1536000000000 bytes"):
+        recordings.load(tmp_path / "a.npy", rate=10.0)
