@@ -101,7 +101,9 @@ def best_lag(reference: ArrayLike, signal: ArrayLike, dt: float, max_lag: float 
     return float((shifts[best] + _vertex(cost, best)) * dt)
 
 
-def sparc(speed: ArrayLike, rate: float, *, cutoff: float = 10.0, threshold: float = 0.05, padding: int = 4) -> float:
+def sparc(
+    speed: ArrayLike, rate: float, *, cutoff: float = 10.0, threshold: float = 0.05, padding: int = 4
+) -> float:
     """Spectral arc length of a speed profile (T,) sampled at ``rate`` [Hz]: <= 0, the nearer to 0 the smoother.
 
     The negative length of the curve of the magnitude spectrum, scaled to 1 in height (by its value at 0 Hz) and in

@@ -7,6 +7,7 @@ URDF_USE_INERTIA_FROM_FILE is set, every link is damped by 0.04, and every joint
 from __future__ import annotations
 
 import contextlib
+import importlib.metadata
 import os
 import sys
 import tempfile
@@ -67,7 +68,7 @@ class Bullet:
         self._p = _pybullet()
         with _quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
-        self.name = f"PyBullet {self._p.getAPIVersion(physicsClientId=self._client)}"
+        self.name = f"PyBullet {importlib.metadata.version('pybullet')}"
         try:
             self._set_up(description, floor)
         except BaseException:
@@ -98,7 +99,7 @@ class Bullet:
         self._read()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        return np.array([self._q[i] for i in self._of_arm]), np.array([self._qd[i] for i in self._of_arm])
+        return self._state
 
     def inverse_dynamics(self, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
         every_acceleration = self._at_rest.copy()
@@ -268,6 +269,8 @@ class Bullet:
     def _read(self) -> None:
         states = self._p.getJointStates(self._body, self._moving, physicsClientId=self._client)
         self._q, self._qd, _, self._motor_torque = zip(*states, strict=True)
+        of_arm = [states[i] for i in self._of_arm]
+        self._state = np.array([s[0] for s in of_arm]), np.array([s[1] for s in of_arm])
 
     def _link_pose(self, link: int) -> NDArray[np.float64]:
         """Pose of a link's frame (not of its centre of mass) in the root's frame."""

@@ -208,4 +208,6 @@ def _refuse(
     for name in ("position", "velocity", "acceleration"):
         bad = np.flatnonzero(~np.isfinite(getattr(joints, name)).all(axis=1))
         if len(bad):
-            raise InvalidArgument(f"joints.{name}[{bad[0]}]: not finite. Check the inverse kinematics' report.")
+            raise InvalidArgument(
+                f"joints.{name}[{bad[0]}]: not finite. Check the inverse kinematics' report."
+            )

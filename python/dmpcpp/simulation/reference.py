@@ -56,11 +56,11 @@ def sample(
     inside = int(np.floor(duration / dt + 1e-6)) + 1
     after = int(np.ceil((lead_out + settle) / dt - 1e-9))
     steps = np.arange(-before - 1, inside + after + 1)  # one more on either side for the differences
-    states = _states(joints, steps * dt, lead_in, lead_out)
+    states = _states(joints, steps / rate, lead_in, lead_out)
     if consistent:
         states = _differences(states[0], dt)
     position, velocity, acceleration = (state[1:-1] for state in states)
-    return Reference(steps[1:-1] * dt, position, velocity, acceleration, slice(before, before + inside))
+    return Reference(steps[1:-1] / rate, position, velocity, acceleration, slice(before, before + inside))
 
 
 def _states(joints: JointTrajectory, time: NDArray[np.float64], lead_in: float, lead_out: float) -> States:

@@ -64,7 +64,9 @@ def describe(arm: Arm, *, visuals: bool = False) -> RobotDescription:
             mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), arm.folder, link.get("name", ""))))
     repaired = tuple(link.get("name", "") for link in robot.findall("link") if _repair_inertia(link))
     groups = _rigid_groups(robot)
-    return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
+    return RobotDescription(
+        ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups)
+    )
 
 
 def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:

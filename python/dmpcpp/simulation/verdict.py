@@ -47,7 +47,9 @@ class Check:
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON: a value that is not finite becomes None."""
-        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
+        return {
+            k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()
+        }
 
 
 @dataclass(frozen=True)
@@ -143,7 +145,15 @@ def _at_most(name: str, series: _Series, limit: float, unit: str) -> Check:
 def _finite(log: ExecutionLog) -> Check:
     missing = log.planned_steps - len(log.time)
     when = float(log.time[-1]) if missing and len(log.time) else None
-    return Check("finite", missing == 0, missing, 0, "steps", when, "the state left the finite numbers" if missing else "")
+    return Check(
+        "finite",
+        missing == 0,
+        missing,
+        0,
+        "steps",
+        when,
+        "the state left the finite numbers" if missing else "",
+    )
 
 
 def _tracking(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
@@ -156,7 +166,9 @@ def _tracking(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
         rmse = float(np.sqrt(np.mean(errors**2))) if errors.size else math.nan
         limit = getattr(tolerances, f"{name}_rmse")
         yield Check(f"tracking_{name}_rmse", rmse <= limit, rmse, limit, unit)
-        yield _at_most(f"tracking_{name}_max", _Series(time, errors), getattr(tolerances, f"{name}_max"), unit)
+        yield _at_most(
+            f"tracking_{name}_max", _Series(time, errors), getattr(tolerances, f"{name}_max"), unit
+        )
     last = _Series(log.time[-1:], position_errors(log.desired_tool_pose[-1:], log.tool_pose[-1:]))
     yield _at_most("settle_error", last, tolerances.settle_error, "m")
 
