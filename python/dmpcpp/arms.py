@@ -1,4 +1,4 @@
-"""Arms by name: the URDFs that ship with PyBullet, with the limits of the real machines where those hold placeholders."""
+"""Arms by name: the URDFs that ship with PyBullet, with the real limits where those hold placeholders."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ KNOWN: dict[str, KnownArm] = {
         velocity_limit=tuple(math.radians(v) for v in (85, 85, 100, 75, 130, 135, 135)),
         effort_limit=(320.0, 320.0, 176.0, 176.0, 110.0, 40.0, 40.0),
         acceleration_limit=None,
-        source="KUKA LBR iiwa 14 R820: brochure 'Sensitive robotics LBR iiwa', axis data, p. 30. The URDF's links "
-        "(0.36 m, 0.42 m) are those of the R820; its velocity 10 and effort 300 are placeholders.",
+        source="KUKA LBR iiwa 14 R820: brochure 'Sensitive robotics LBR iiwa', axis data, p. 30. The URDF's "
+        "links (0.36 m, 0.42 m) are those of the R820; its velocity 10 and effort 300 are placeholders.",
     ),
     "xarm6": KnownArm(
         urdf="xarm/xarm6_robot.urdf",
@@ -77,7 +77,7 @@ KNOWN: dict[str, KnownArm] = {
 
 
 def find(name: str) -> Arm:
-    """The arm of that name: "panda", "iiwa" or "xarm6", with the limits of the real machine (``KNOWN[name].source``).
+    """The arm "panda", "iiwa" or "xarm6", with the limits of the real machine (``KNOWN[name].source``).
 
     Raises
     ------
@@ -114,9 +114,10 @@ def load(name_or_path: str | Path, base: str | None = None, tip: str | None = No
 
 
 def acceleration_limit(arm: Arm) -> NDArray[np.float64]:
-    """Joint acceleration limits (n,) [rad/s^2] of an arm: its maker's if ``KNOWN`` has them, else DEFAULT_ACCELERATION.
+    """Joint acceleration limits (n,) [rad/s^2]: the maker's if ``KNOWN`` has them, else DEFAULT_ACCELERATION.
 
-    An arm is known by its name and its joints' number: ``panda`` of any base and tip with all joints has Franka's.
+    An arm is known by its name and its joints' number: ``panda`` of any base and tip with all joints has
+    Franka's.
     """
     for name, known in KNOWN.items():
         limit = known.acceleration_limit
@@ -131,6 +132,7 @@ def _pybullet_data() -> Path:
     if spec is None or not spec.submodule_search_locations:
         raise MissingDependency(
             "pybullet_data, which holds the URDFs of the known arms, is not installed. "
-            'Install the extra: pip install "dmpcpp[sim]" (wheels up to Python 3.11), or give the path of a .urdf file.'
+            'Install the extra: pip install "dmpcpp[sim]" (wheels up to Python 3.11), '
+            "or give the path of a .urdf file."
         )
     return Path(spec.submodule_search_locations[0])

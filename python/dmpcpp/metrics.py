@@ -1,7 +1,7 @@
 """How far one motion is from another, and how smooth it is: each measure with its definition.
 
-None is enough alone: a lag of 0.1 s looks bad in RMSE and invisible in the Frechet distance; an offset looks the
-other way round in SPARC. Poses are (T, 4, 4) homogeneous matrices with positions in m, angles in rad.
+None is enough alone: a lag of 0.1 s looks bad in RMSE and invisible in the Frechet distance; an offset looks
+the other way round in SPARC. Poses are (T, 4, 4) homogeneous matrices with positions in m, angles in rad.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StageErrors:
-    """Errors of one stage of the flow (demonstration -> DMP, DMP -> FK(IK), FK(IK) -> executed), at equal times.
+    """Errors of one stage of the flow (such as DMP -> FK(IK), or FK(IK) -> executed), at equal times.
 
     Attributes
     ----------
@@ -69,8 +69,8 @@ def position_errors(reference: ArrayLike, poses: ArrayLike) -> Array:
 def angle_errors(reference: ArrayLike, poses: ArrayLike) -> Array:
     """Geodesic angles (T,) [rad], 0 to pi: |log(Ra^T Rb)| of two series of poses (T, 4, 4).
 
-    Computed as 2 atan2(|Ra - Rb|, sqrt(8 - |Ra - Rb|^2)) with the Frobenius norm, which is 2 sqrt(2) sin(angle / 2):
-    exact near 0, where the arccosine of the trace loses half of the digits.
+    Computed as 2 atan2(|Ra - Rb|, sqrt(8 - |Ra - Rb|^2)) with the Frobenius norm, which is 2 sqrt(2)
+    sin(angle / 2): exact near 0, where the arccosine of the trace loses half of the digits.
     """
     a, b = _pose_pair(reference, poses)
     chord_squared = np.sum((b[:, :3, :3] - a[:, :3, :3]) ** 2, axis=(1, 2))
@@ -86,13 +86,13 @@ def final_error(reference: ArrayLike, poses: ArrayLike) -> PoseError:
 def best_lag(reference: ArrayLike, signal: ArrayLike, dt: float, max_lag: float = 0.5) -> float:
     """Delay [s] of ``signal`` (T, d) behind ``reference`` (T, d) that makes the two most alike.
 
-    The lag within +-``max_lag`` whose overlapping samples have the least mean squared distance, refined between
-    samples by the parabola through the three lowest. Positive: the signal comes late.
+    The lag within +-``max_lag`` whose overlapping samples have the least mean squared distance, refined
+    between samples by the parabola through the three lowest. Positive: the signal comes late.
     """
     a, b = _series("reference", reference), _series("signal", signal)
     _same_shape(a, b)
     _positive("dt", dt)
-    reach = min(int(round(max_lag / dt)), len(a) - 2)
+    reach = min(round(max_lag / dt), len(a) - 2)
     if reach < 0:
         raise InvalidArgument(f"signal: {len(b)} sample(s), expected at least 2.")
     shifts = np.arange(-reach, reach + 1)
@@ -104,12 +104,13 @@ def best_lag(reference: ArrayLike, signal: ArrayLike, dt: float, max_lag: float 
 def sparc(
     speed: ArrayLike, rate: float, *, cutoff: float = 10.0, threshold: float = 0.05, padding: int = 4
 ) -> float:
-    """Spectral arc length of a speed profile (T,) sampled at ``rate`` [Hz]: <= 0, the nearer to 0 the smoother.
+    """Spectral arc length of a speed (T,) sampled at ``rate`` [Hz]: <= 0, the nearer to 0 the smoother.
 
-    The negative length of the curve of the magnitude spectrum, scaled to 1 in height (by its value at 0 Hz) and in
-    width, from 0 Hz to the last frequency below ``cutoff`` [Hz] whose magnitude reaches ``threshold``; the signal
-    is padded with zeros to 2^(ceil(log2 T) + padding) samples. Independent of amplitude and of duration.
-    Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet, "On the analysis of movement smoothness", JNER 2015.
+    The negative length of the curve of the magnitude spectrum, scaled to 1 in height (by its value at 0 Hz)
+    and in width, from 0 Hz to the last frequency below ``cutoff`` [Hz] whose magnitude reaches
+    ``threshold``; the signal is padded with zeros to 2^(ceil(log2 T) + padding) samples. Independent of
+    amplitude and of duration. Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet, "On the analysis of
+    movement smoothness", JNER 2015.
     """
     v = _series("speed", speed)[:, 0]
     _positive("rate", rate)
@@ -132,8 +133,9 @@ def log_dimensionless_jerk(velocity: ArrayLike, rate: float) -> float:
     """Smoothness of a velocity (T,) or (T, d) sampled at ``rate`` [Hz]: the larger, the smoother.
 
     -ln( T^3 / v_peak^2 * integral |d^2 v / dt^2|^2 dt ), with T the duration, v_peak the largest |v| and the
-    derivative by second differences. A minimum-jerk reach has -ln(204.8) = -5.32. Sensitive to noise: filter first.
-    Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet, "On the analysis of movement smoothness", JNER 2015.
+    derivative by second differences. A minimum-jerk reach has -ln(204.8) = -5.32. Sensitive to noise: filter
+    first. Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet, "On the analysis of movement
+    smoothness", JNER 2015.
     """
     v = _series("velocity", velocity)
     _positive("rate", rate)
@@ -151,14 +153,14 @@ def log_dimensionless_jerk(velocity: ArrayLike, rate: float) -> float:
 def frechet(a: ArrayLike, b: ArrayLike) -> float:
     """Discrete Frechet distance [unit of the points] of two paths (T, d) and (S, d).
 
-    The shortest leash that lets a walker on each path reach the end, both going forward only from sample to sample.
-    Eiter and Mannila, "Computing discrete Frechet distance", TU Wien CD-TR 94/64, 1994. Time T * S.
+    The shortest leash that lets a walker on each path reach the end, both going forward only from sample to
+    sample. Eiter and Mannila, "Computing discrete Frechet distance", TU Wien CD-TR 94/64, 1994. Time T * S.
     """
     p, q = _series("a", a), _series("b", b)
     if p.shape[1] != q.shape[1]:
         raise InvalidArgument(f"b: {q.shape[1]} columns, expected {p.shape[1]} as in a.")
     leash = np.linalg.norm(p[:, None] - q[None], axis=2)
-    # The best leash up to (i, j) depends on (i-1, j), (i, j-1) and (i-1, j-1): fill it by anti-diagonals, kept by i.
+    # The best leash up to (i, j) needs those at (i-1, j), (i, j-1) and (i-1, j-1): go by anti-diagonals.
     count, width = leash.shape
     before_last, last = np.full(count + 1, np.inf), np.full(count + 1, np.inf)
     before_last[0] = -np.inf  # nothing precedes the first pair
@@ -171,7 +173,7 @@ def frechet(a: ArrayLike, b: ArrayLike) -> float:
     return float(last[count])
 
 
-# ---- what comes in -------------------------------------------------------------------------------------------
+# ---- what comes in ---------------------------------------------------------------------------------
 
 
 def _pose_pair(reference: ArrayLike, poses: ArrayLike) -> tuple[Array, Array]:

@@ -1,8 +1,9 @@
 """Pictures of a motion: what was shown, what was planned, what the arm did, and how far apart they are.
 
-Every function draws into matplotlib axes that it is given and returns them; ``picture`` composes a whole page into
-a file. Nothing here touches ``matplotlib.pyplot`` or its state. Colours are those of Okabe and Ito ("Color Universal
-Design", 2008), told apart with every kind of colour vision; every series differs in its stroke as well.
+Every function draws into matplotlib axes that it is given and returns them; ``picture`` composes a whole
+page into a file. Nothing here touches ``matplotlib.pyplot`` or its state. Colours are those of Okabe and Ito
+("Color Universal Design", 2008), told apart with every kind of colour vision; every series differs in its
+stroke as well.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ class ErrorCurve:
 
 
 def paths(axes: Any, **poses: Array) -> Any:
-    """Draw paths into 3-D axes: ``paths(axes, demonstrated=..., planned=..., executed=...)``, each (T, 4, 4) or (T, 3) [m].
+    """Draw ``demonstrated=``, ``planned=`` and ``executed=`` into 3-D axes, each (T, 4, 4) or (T, 3) [m].
 
     The plan is a broad line with short strokes along the tool's z axis, the demonstration is dots on it, the
     execution a thin line on top. Grey below is the plan's shadow.
@@ -81,12 +82,12 @@ def paths(axes: Any, **poses: Array) -> Any:
 
 
 def position_error(axes: Axes, curves: Sequence[ErrorCurve], limit: float | None = None) -> Axes:
-    """Draw distances [mm] over time on a logarithmic axis, the worst of each short stretch; ``limit`` [m] is a line."""
+    """Draw distances [mm], the worst of each short stretch, over time; ``limit`` [m] is a line."""
     return _errors(axes, curves, "position", 1e3, "position error [mm]", limit)
 
 
 def angle_error(axes: Axes, curves: Sequence[ErrorCurve], limit: float | None = None) -> Axes:
-    """Draw angles [deg] over time on a logarithmic axis, the worst of each short stretch; ``limit`` [rad] is a line."""
+    """Draw angles [deg], the worst of each short stretch, over time; ``limit`` [rad] is a line."""
     return _errors(axes, curves, "angle", np.degrees(1.0), "angle error [deg]", limit)
 
 
@@ -239,7 +240,7 @@ def _errors(
 
 
 def _envelope(time: Array, values: Array) -> tuple[Array, Array]:
-    """The largest value of each of _BINS stretches: what is drawn never looks better than what was measured."""
+    """The largest value of each of _BINS stretches: what is drawn never looks better than it was."""
     size = -(-len(values) // _BINS)
     if size <= 1:
         return time, values

@@ -1,7 +1,7 @@
 """Physics: a joint trajectory carried out on a simulated arm, and the judgement of how it went.
 
-``execute(arm, joints)`` gives an ``ExecutionLog``; ``log.verdict`` says what held. PyBullet is imported when it is
-first needed; without it ``execute`` raises ``MissingDependency``.
+``execute(arm, joints)`` gives an ``ExecutionLog``; ``log.verdict`` says what held. PyBullet is imported when
+it is first needed; without it ``execute`` raises ``MissingDependency``.
 """
 
 from dmpcpp.simulation.execution import contacts_along, execute

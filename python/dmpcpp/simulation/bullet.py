@@ -6,12 +6,9 @@ URDF_USE_INERTIA_FROM_FILE is set, every link is damped by 0.04, and every joint
 
 from __future__ import annotations
 
-import contextlib
 import importlib.metadata
-import os
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Self
@@ -21,12 +18,12 @@ from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument, MissingDependency
+from dmpcpp.simulation.quiet import quiet
 from dmpcpp.simulation.robot_description import RobotDescription, describe
 from dmpcpp.simulation.simulator import FLOOR, Contact
 
 _GRAVITY = -9.81  # m/s^2 along z of the URDF's root
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
-_FIXED = 4  # pybullet.JOINT_FIXED
 
 
 class Bullet:
@@ -52,8 +49,8 @@ class Bullet:
 
     Notes
     -----
-    Collision shapes are the convex hulls of the URDF's collision meshes: a contact can be reported up to a hull's
-    hollow too early, never too late.
+    Collision shapes are the convex hulls of the URDF's collision meshes: a contact can be reported up to a
+    hull's hollow too early, never too late.
     """
 
     def __init__(
@@ -66,7 +63,7 @@ class Bullet:
         description = describe(arm, visuals=visuals)
         self.repaired_links = description.repaired_links
         self._p = _pybullet()
-        with _quiet():
+        with quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
         self.name = f"PyBullet {importlib.metadata.version('pybullet')}"
         try:
@@ -78,12 +75,8 @@ class Bullet:
     def _set_up(self, description: RobotDescription, floor: float | None) -> None:
         p, client = self._p, self._client
         p.setGravity(0.0, 0.0, _GRAVITY, physicsClientId=client)
-        p.setPhysicsEngineParameter(
-            fixedTimeStep=self.time_step,
-            numSolverIterations=100,
-            deterministicOverlappingPairs=1,
-            physicsClientId=client,
-        )
+        options = {"numSolverIterations": 100, "deterministicOverlappingPairs": 1}
+        p.setPhysicsEngineParameter(self.time_step, **options, physicsClientId=client)
         self._body = self._load(description.text)
         self._find_joints()
         self._switch_off_damping_and_motors()
@@ -91,27 +84,31 @@ class Bullet:
         if floor is not None:
             self._add_floor(floor, description)
 
-    # ---- Simulator -------------------------------------------------------------------------------------------
+    # ---- Simulator ---------------------------------------------------------------------------------------
 
     def reset(self, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+        """Put the arm into a state."""
         for joint, q, qd in zip(self._arm_joints, position.tolist(), velocity.tolist(), strict=True):
             self._p.resetJointState(self._body, joint, q, qd, physicsClientId=self._client)
         self._read()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Position and velocity, as read after the last step."""
         return self._state
 
     def inverse_dynamics(self, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
-        every_acceleration = self._at_rest.copy()
+        """Torque for an acceleration of the arm's joints, the others held."""
+        accelerations = self._at_rest.copy()
         for i, value in zip(self._of_arm, acceleration.tolist(), strict=True):
-            every_acceleration[i] = value
+            accelerations[i] = value
         torque = self._p.calculateInverseDynamics(
-            self._body, self._q, self._qd, every_acceleration, physicsClientId=self._client
+            self._body, self._q, self._qd, accelerations, physicsClientId=self._client
         )
         # Bullet steps with the joint damping of the URDF but leaves it out of its inverse dynamics.
         return np.array([torque[i] + self._damping[i] * self._qd[i] for i in self._of_arm])
 
     def apply_torque(self, torque: NDArray[np.float64]) -> None:
+        """Torque of the next step."""
         self._p.setJointMotorControlArray(
             self._body,
             self._arm_joints,
@@ -121,6 +118,7 @@ class Bullet:
         )
 
     def servo(self, position: NDArray[np.float64]) -> None:
+        """One step of Bullet's position motors: gain 1 reaches the target unless the torque is capped."""
         self._p.setJointMotorControlArray(
             self._body,
             self._arm_joints,
@@ -133,17 +131,21 @@ class Bullet:
         )
 
     def servo_torque(self) -> NDArray[np.float64]:
+        """Torque that the motors gave in the last step."""
         return np.array([self._motor_torque[i] for i in self._of_arm])
 
     def step(self) -> None:
+        """Advance and read the joints."""
         self._p.stepSimulation(physicsClientId=self._client)
         self._read()
 
     def tool_pose(self) -> NDArray[np.float64]:
+        """Pose of the tip in the base frame, by Bullet."""
         tip = self._link_pose(self._tip)
         return tip if self._base == -1 else np.linalg.inv(self._link_pose(self._base)) @ tip
 
     def contacts(self) -> list[Contact]:
+        """The deepest contact of every pair that overlaps."""
         points = self._p.getContactPoints(self._body, physicsClientId=self._client)
         deepest: dict[tuple[str, str], float] = {}
         for point in points:
@@ -153,6 +155,7 @@ class Bullet:
         return [Contact(*pair, depth) for pair, depth in sorted(deepest.items())]
 
     def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
+        """Contacts with the arm put at a position."""
         self.reset(position, np.zeros_like(position))
         self._p.performCollisionDetection(physicsClientId=self._client)
         return self.contacts()
@@ -160,7 +163,7 @@ class Bullet:
     def close(self) -> None:
         """Free the world; a second call does nothing."""
         if self._client >= 0:
-            with _quiet():
+            with quiet():
                 self._p.disconnect(physicsClientId=self._client)
             self._client = -1
 
@@ -170,7 +173,7 @@ class Bullet:
     def __exit__(self, *failure: object) -> None:
         self.close()
 
-    # ---- setting up ------------------------------------------------------------------------------------------
+    # ---- setting up --------------------------------------------------------------------------------------
 
     def _load(self, urdf: str) -> int:
         p = self._p
@@ -178,7 +181,7 @@ class Bullet:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             path = Path(folder, "arm.urdf")
             path.write_text(urdf, encoding="utf-8")
-            with _quiet() as heard:
+            with quiet() as heard:
                 try:
                     return int(
                         p.loadURDF(str(path), useFixedBase=True, flags=flags, physicsClientId=self._client)
@@ -188,36 +191,39 @@ class Bullet:
         raise InvalidArgument(f"arm.urdf: PyBullet can not load '{self.arm.name}': {reason}")
 
     def _find_joints(self) -> None:
-        """Index joints and links by name: Bullet's order is its own, and holds fingers and fixed joints as well."""
+        """Index joints and links by name: Bullet has its own order, with fingers and fixed joints in it."""
         p, client, body = self._p, self._client, self._body
         infos = [p.getJointInfo(body, i, physicsClientId=client) for i in range(self._joint_count())]
-        self._links = {info[12].decode(): info[0] for info in infos}
-        self._links[p.getBodyInfo(body, physicsClientId=client)[0].decode()] = -1
-        self._link_names = {index: name for name, index in self._links.items()}
-        moving = [info for info in infos if info[2] != _FIXED]
-        self._moving = [info[0] for info in moving]
-        self._damping = [info[6] for info in moving]
-        position_of = {info[1].decode(): k for k, info in enumerate(moving)}
-        self._of_arm = [position_of[name] for name in self.arm.joint_names]
-        self._arm_joints = [self._moving[k] for k in self._of_arm]
-        self._held = [info for k, info in enumerate(moving) if k not in self._of_arm]
-        self._at_rest = [0.0] * len(moving)
-        self._unit_gains = [1.0] * len(self._arm_joints)
-        self._servo_limit = np.minimum(self.arm.effort_limit, _UNLIMITED_TORQUE).tolist()
+        self._link_names = {info[0]: info[12].decode() for info in infos}
+        self._link_names[-1] = p.getBodyInfo(body, physicsClientId=client)[0].decode()
+        self._links = {name: index for index, name in self._link_names.items()}
         self._base, self._tip = self._links[self.arm.base], self._links[self.arm.tip]
+        self._index_moving([info for info in infos if info[2] != p.JOINT_FIXED])
         self._refuse_folded_joints(infos)
 
+    def _index_moving(self, moving: list[Any]) -> None:
+        """Where the arm's joints are among all that move."""
+        names = [info[1].decode() for info in moving]
+        self._moving = [info[0] for info in moving]
+        self._damping = [info[6] for info in moving]
+        self._at_rest = [0.0] * len(moving)
+        self._of_arm = [names.index(name) for name in self.arm.joint_names]
+        self._arm_joints = [self._moving[k] for k in self._of_arm]
+        self._held = [info for k, info in enumerate(moving) if k not in self._of_arm]
+        self._unit_gains = [1.0] * len(self._arm_joints)
+        self._servo_limit = np.minimum(self.arm.effort_limit, _UNLIMITED_TORQUE).tolist()
+
     def _refuse_folded_joints(self, infos: list[Any]) -> None:
-        """A mimic joint between base and tip moves with its master in ``Arm`` but would be held still here."""
-        parent = {info[0]: (info[16], info) for info in infos}
+        """A mimic joint between base and tip moves with its master in ``Arm``; here it would be held still."""
         link = self._tip
         while link not in (self._base, -1):
-            link, info = parent[link]
-            if info[2] != _FIXED and info[0] not in self._arm_joints:
+            info = infos[link]
+            if info[2] != self._p.JOINT_FIXED and info[0] not in self._arm_joints:
                 raise InvalidArgument(
                     f"arm: joint '{info[1].decode()}' between '{self.arm.base}' and '{self.arm.tip}' mimics "
                     "another; PyBullet can not couple them. Choose a base and a tip without it."
                 )
+            link = info[16]
 
     def _joint_count(self) -> int:
         return int(self._p.getNumJoints(self._body, physicsClientId=self._client))
@@ -232,23 +238,16 @@ class Bullet:
             self._hold(info)
 
     def _hold(self, info: Any) -> None:
-        """Keep a joint that is not the arm's in the middle of its range, where no finger touches another."""
+        """Keep a joint that is not the arm's in the middle of its range: no finger touches another."""
         lower, upper, effort = info[8], info[9], info[10]
         middle = 0.5 * (lower + upper) if lower < upper else 0.0
-        p, client = self._p, self._client
-        p.resetJointState(self._body, info[0], middle, physicsClientId=client)
-        p.setJointMotorControl2(
-            self._body,
-            info[0],
-            p.POSITION_CONTROL,
-            targetPosition=middle,
-            positionGain=1.0,
-            force=effort or _UNLIMITED_TORQUE,
-            physicsClientId=client,
-        )
+        motor = {"targetPosition": middle, "positionGain": 1.0, "force": effort or _UNLIMITED_TORQUE}
+        p, client, body = self._p, self._client, self._body
+        p.resetJointState(body, info[0], middle, physicsClientId=client)
+        p.setJointMotorControl2(body, info[0], p.POSITION_CONTROL, **motor, physicsClientId=client)
 
     def _ignore_overlaps(self, description: RobotDescription) -> None:
-        """Let links overlap that touch by construction: those rigidly joined, and those on either side of a joint."""
+        """Let links overlap that touch by construction: rigidly joined, or on either side of a joint."""
         for pair in description.neighbours:
             a, b = (self._links[name] for name in pair)
             self._p.setCollisionFilterPair(self._body, self._body, a, b, 0, physicsClientId=self._client)
@@ -264,7 +263,7 @@ class Bullet:
                 self._floor, self._body, -1, self._links[link], 0, physicsClientId=client
             )
 
-    # ---- reading ---------------------------------------------------------------------------------------------
+    # ---- reading -----------------------------------------------------------------------------------------
 
     def _read(self) -> None:
         states = self._p.getJointStates(self._body, self._moving, physicsClientId=self._client)
@@ -291,7 +290,7 @@ class Bullet:
 
 def _pybullet() -> ModuleType:
     try:
-        with _quiet():
+        with quiet():
             import pybullet
     except ImportError:
         raise MissingDependency(
@@ -299,28 +298,3 @@ def _pybullet() -> ModuleType:
             'Install the extra: pip install "dmpcpp[sim]". Its newest wheels are for Python 3.11.'
         ) from None
     return pybullet
-
-
-@contextlib.contextmanager
-def _quiet() -> Iterator[Any]:
-    """Keep what Bullet's C++ prints off the terminal; yields a function that returns what it said.
-
-    It writes past ``sys.stdout``, so the file descriptors themselves are turned away for this short while.
-    """
-    sys.stdout.flush()
-    sys.stderr.flush()
-    kept = [os.dup(1), os.dup(2)]
-    with tempfile.TemporaryFile() as sink:
-        os.dup2(sink.fileno(), 1)
-        os.dup2(sink.fileno(), 2)
-
-        def heard() -> str:
-            sink.seek(0)
-            return sink.read().decode(errors="replace")
-
-        try:
-            yield heard
-        finally:
-            for descriptor, copy in zip((1, 2), kept, strict=True):
-                os.dup2(copy, descriptor)
-                os.close(copy)

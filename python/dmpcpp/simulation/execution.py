@@ -45,8 +45,8 @@ def execute(
     rate : float
         Control and physics steps a second [Hz].
     mode : {"computed_torque", "position"}
-        ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) in the
-        measured state, clipped at the arm's effort limits (Siciliano et al., Robotics, 2009, section 8.5.2).
+        ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) in
+        the measured state, clipped at the arm's effort limits (Siciliano et al., Robotics, 2009, section 8.5.2).
         ``"position"``: a sanity check; the engine's own motors reach the next reference inside the step. It
         tests kinematics and the torque cap only, and can not feel a load.
     kp, kd : float
@@ -54,13 +54,14 @@ def execute(
     settle : float
         How long the arm holds the last position [s], >= 0.
     from_rest : bool
-        Run up to the first state from rest, before time 0. If False the simulated arm is put into the first state
-        in flight: no arm can do that.
+        Run up to the first state from rest, before time 0. If False the simulated arm is put into the first
+        state in flight: no arm can do that.
     consistent : bool
-        Take the reference's velocity and acceleration by differences of its samples: what a semi-implicit engine
-        follows without error. If False they are the derivatives of the spline.
+        Take the reference's velocity and acceleration by differences of its samples: what a semi-implicit
+        engine follows without error. If False they are the derivatives of the spline.
     simulator : callable
-        ``simulator(arm, time_step)`` gives a ``Simulator``; ``functools.partial(Bullet, floor=None)`` has no ground.
+        ``simulator(arm, time_step)`` gives a ``Simulator``; ``functools.partial(Bullet, floor=None)`` has no
+        ground.
     progress : callable, optional
         Called as ``progress(done, total)`` every hundred steps and at the end.
 
@@ -107,7 +108,7 @@ def contacts_along(
     *,
     simulator: Callable[[Arm, float], Simulator] = Bullet,
 ) -> list[tuple[int, Contact]]:
-    """Contacts of the arm with itself and the floor at joint positions (T, n), without moving: (index, contact)."""
+    """Contacts of the arm with itself and the floor at joints (T, n), without dynamics: (index, contact)."""
     with simulator(arm, 1e-3) as engine:
         return [(k, contact) for k, q in enumerate(position) for contact in engine.contacts_at(q)]
 
@@ -191,6 +192,23 @@ def _refuse(
     arm: Arm, joints: JointTrajectory, rate: float, mode: str, kp: float, kd: float, settle: float
 ) -> None:
     """Turn down what can not be carried out, before anything is loaded."""
+    if mode not in CAVEATS:
+        raise InvalidArgument(f"mode: '{mode}', expected one of {', '.join(CAVEATS)}.")
+    if not 10.0 <= rate <= 1e5:
+        raise InvalidArgument(f"rate: {rate}, expected 10 to 100000 Hz.")
+    for name, value in (("kp", kp), ("kd", kd), ("settle", settle)):
+        if not 0.0 <= value < np.inf:
+            raise InvalidArgument(f"{name}: {value}, expected a number >= 0.")
+    _refuse_joints(arm, joints)
+    weak = np.flatnonzero(arm.effort_limit <= 0.0)
+    if len(weak):
+        raise InvalidArgument(
+            f"arm.effort_limit[{weak[0]}]: {arm.effort_limit[weak[0]]}, expected a positive torque for "
+            f"'{arm.joint_names[weak[0]]}'. State the real ones with arm.with_limits(effort=...)."
+        )
+
+
+def _refuse_joints(arm: Arm, joints: JointTrajectory) -> None:
     if list(joints.joint_names) != list(arm.joint_names):
         raise InvalidArgument(
             f"joints.joint_names: {list(joints.joint_names)}, expected {list(arm.joint_names)}. "
@@ -198,16 +216,7 @@ def _refuse(
         )
     if len(joints.time) < 2:
         raise InvalidArgument(f"joints: {len(joints.time)} sample(s), expected at least 2.")
-    if mode not in CAVEATS:
-        raise InvalidArgument(f"mode: '{mode}', expected one of {', '.join(CAVEATS)}.")
-    if not (np.isfinite(rate) and 10.0 <= rate <= 1e5):
-        raise InvalidArgument(f"rate: {rate}, expected 10 to 100000 Hz.")
-    for name, value in (("kp", kp), ("kd", kd), ("settle", settle)):
-        if not (np.isfinite(value) and value >= 0.0):
-            raise InvalidArgument(f"{name}: {value}, expected a number >= 0.")
     for name in ("position", "velocity", "acceleration"):
         bad = np.flatnonzero(~np.isfinite(getattr(joints, name)).all(axis=1))
         if len(bad):
-            raise InvalidArgument(
-                f"joints.{name}[{bad[0]}]: not finite. Check the inverse kinematics' report."
-            )
+            raise InvalidArgument(f"joints.{name}[{bad[0]}]: not finite. See the inverse kinematics' report.")

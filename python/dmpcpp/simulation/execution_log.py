@@ -14,8 +14,10 @@ from dmpcpp.simulation.simulator import Contact
 from dmpcpp.simulation.verdict import Verdict, judge
 
 CAVEATS = {
-    "computed_torque": "the controller knows the simulated masses exactly; model errors, delay and friction are not in it",
-    "position": "the engine's motors are constraints solved inside the step; only kinematics and the torque cap are tested",
+    "computed_torque": "the controller knows the simulated masses exactly; "
+    "model errors, delay and friction are not in it",
+    "position": "the engine's motors are constraints solved inside the step; "
+    "only kinematics and the torque cap are tested",
 }
 """What each mode can not see."""
 

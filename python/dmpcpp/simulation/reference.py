@@ -41,9 +41,10 @@ def sample(
     """Sample a joint trajectory at ``rate`` [Hz], from rest to rest.
 
     Between its samples the trajectory is the quintic through their positions, velocities and accelerations. A
-    motion cut from a recording starts and ends in mid-swing: a lead-in runs the arm up to the first state and a
-    lead-out stops it after the last, both with a smoothstep velocity 3 u^2 - 2 u^3 of at most LEAD_ACCELERATION
-    (more where a joint limit is near). Then the last position is held for ``settle`` seconds.
+    motion cut from a recording starts and ends in mid-swing: a lead-in runs the arm up to the first state
+    and a lead-out stops it after the last, both with a smoothstep velocity 3 u^2 - 2 u^3 of at most
+    LEAD_ACCELERATION (more where a joint limit is near). Then the last position is held for ``settle``
+    seconds.
 
     ``consistent`` replaces velocity and acceleration by the differences of the positions,
     qd[k] = (q[k] - q[k-1]) / dt and qdd[k] = (q[k+1] - 2 q[k] + q[k-1]) / dt^2. These are what an engine with
@@ -78,7 +79,7 @@ def _states(joints: JointTrajectory, time: NDArray[np.float64], lead_in: float, 
 
 
 def _ramp_duration(arm: Arm, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> float:
-    """How long to take from ``velocity`` to rest: gently, but short of the joint limits where that is possible."""
+    """How long to take from ``velocity`` to rest: gently, but short of the joint limits if that can be."""
     speed = np.abs(velocity)
     gentle = float(np.max(1.5 * speed / LEAD_ACCELERATION))
     room = np.where(velocity > 0.0, arm.upper - position, position - arm.lower)
@@ -107,7 +108,7 @@ def _ramp(
 
 
 def _quintic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
-    """The piecewise quintic with the position, velocity and acceleration of every sample: twice differentiable."""
+    """The piecewise quintic with position, velocity and acceleration of every sample: C2."""
     knots = joints.time
     k = np.clip(np.searchsorted(knots, time, side="right") - 1, 0, len(knots) - 2)
     h = (knots[k + 1] - knots[k])[:, None]

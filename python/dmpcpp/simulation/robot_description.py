@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
+from itertools import combinations, product
 from pathlib import Path
 
 import numpy as np
@@ -74,7 +75,8 @@ def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:
 
     It can when the inertia is positive definite and its principal moments hold the triangle inequality
     a + b >= c: when the second moment of mass ``tr(I)/2 1 - I`` has no negative eigenvalue (Wensing, Kim and
-    Slotine, "Linear Matrix Inequalities for Physically-Consistent Inertial Parameter Identification", RA-L 2018).
+    Slotine, "Linear Matrix Inequalities for Physically-Consistent Inertial Parameter Identification", RA-L
+    2018).
     """
     scale = float(np.trace(inertia))
     if not scale > 0.0:
@@ -84,7 +86,7 @@ def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:
 
 
 def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The physical inertia (3, 3) nearest to ``inertia``: its second moment with the negative eigenvalues at zero.
+    """The physical inertia (3, 3) nearest to ``inertia``: its second moment without negative eigenvalues.
 
     Nearest in the Frobenius norm of the second moment. A floor of 1e-4 of the largest eigenvalue keeps the
     result off the edge, where engines differ in what they accept.
@@ -170,11 +172,11 @@ def _rigid_groups(robot: ET.Element) -> tuple[frozenset[str], ...]:
 
 def _neighbours(robot: ET.Element, groups: tuple[frozenset[str], ...]) -> frozenset[frozenset[str]]:
     of_link = {link: group for group in groups for link in group}
-    pairs = {frozenset((a, b)) for group in groups for a in group for b in group if a != b}
+    pairs = {frozenset(pair) for group in groups for pair in combinations(group, 2)}
     for joint in robot.findall("joint"):
         parent, child = (of_link[name] for name in _ends(joint))
-        pairs |= {frozenset((a, b)) for a in parent for b in child if a != b}
-    return frozenset(pairs)
+        pairs |= {frozenset(pair) for pair in product(parent, child)}
+    return frozenset(pair for pair in pairs if len(pair) == 2)
 
 
 def _ends(joint: ET.Element) -> tuple[str, str]:

@@ -33,8 +33,9 @@ class Contact:
 class Simulator(Protocol):
     """An arm with a fixed base in a world with gravity, advanced one ``time_step`` at a time.
 
-    Joint vectors have the order of ``arm.joint_names``. Every other moving joint of the robot (fingers) is held
-    where it stands. Poses are 4x4 in the frame of ``arm.base``. Use it in a ``with`` statement: leaving closes it.
+    Joint vectors have the order of ``arm.joint_names``. Every other moving joint of the robot (fingers) is
+    held where it stands. Poses are 4x4 in the frame of ``arm.base``. Use it in a ``with`` statement: leaving
+    closes it.
     """
 
     name: str
@@ -52,13 +53,13 @@ class Simulator(Protocol):
         """Measured joint position (n,) rad and velocity (n,) rad/s."""
 
     def inverse_dynamics(self, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Torque (n,) Nm that gives ``acceleration`` (n,) rad/s^2 in the present state, gravity and damping included."""
+        """Torque (n,) Nm for ``acceleration`` (n,) rad/s^2 in this state, gravity and damping included."""
 
     def apply_torque(self, torque: NDArray[np.float64]) -> None:
         """Set the joint torque (n,) Nm of the next step."""
 
     def servo(self, position: NDArray[np.float64]) -> None:
-        """Let the engine's own position motors reach ``position`` (n,) rad in the next step, capped at the effort limit."""
+        """Let the engine's own motors reach ``position`` (n,) rad in the next step, if the torque allows."""
 
     def servo_torque(self) -> NDArray[np.float64]:
         """Torque (n,) Nm that the engine's position motors gave in the last step."""
@@ -73,7 +74,7 @@ class Simulator(Protocol):
         """Contacts found at the start of the last step."""
 
     def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
-        """Contacts with the arm placed at ``position`` (n,) rad at rest; no dynamics. Leaves the arm there."""
+        """Contacts with the arm put at ``position`` (n,) rad, at rest; no dynamics. It stays there."""
 
     def __enter__(self) -> Self: ...
 

@@ -111,8 +111,8 @@ ROUNDING = 1e-6
 def judge(log: ExecutionLog, tolerances: Tolerances | None = None) -> Verdict:
     """Hold an execution against its tolerances.
 
-    Tracking is judged over the motion itself; limits, contacts and torque over all steps, lead-in, lead-out and
-    settling included. Limits forgive ROUNDING.
+    Tracking is judged over the motion itself; limits, contacts and torque over all steps, lead-in, lead-out
+    and settling included. Limits forgive ROUNDING.
     """
     tolerances = tolerances or Tolerances()
     checks = [_finite(log)]
