@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import trapezoid
 
 from dmpcpp.errors import InvalidArgument
 
@@ -116,8 +117,8 @@ def sparc(
     _positive("rate", rate)
     count = int(2 ** (np.ceil(np.log2(len(v))) + padding))
     magnitude = np.abs(np.fft.fft(v, count))
-    if magnitude[0] == 0.0:
-        raise InvalidArgument("speed: its mean is zero. SPARC is defined for a speed, which is not negative.")
+    if magnitude.max() == 0.0:
+        raise InvalidArgument("speed: all zero. SPARC is defined for a motion.")
     frequency = np.arange(count) * rate / count
     inside = frequency <= cutoff
     frequency, magnitude = frequency[inside], magnitude[inside] / magnitude.max()
@@ -145,8 +146,8 @@ def log_dimensionless_jerk(velocity: ArrayLike, rate: float) -> float:
     if peak == 0.0:
         raise InvalidArgument("velocity: all zero. Smoothness is defined for a motion.")
     duration = (len(v) - 1) / rate
-    jerk = np.diff(v, n=2, axis=0) * rate**2
-    integral = float(np.sum(jerk**2)) / rate
+    jerk_squared = np.sum(np.diff(v, n=2, axis=0) ** 2, axis=1) * rate**4
+    integral = float(trapezoid(np.pad(jerk_squared, 1, mode="edge"), dx=1.0 / rate))  # the ends have no difference
     return float(-np.log(duration**3 / peak**2 * integral)) if integral > 0.0 else float("inf")
 
 
