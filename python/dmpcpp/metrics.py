@@ -147,7 +147,9 @@ def log_dimensionless_jerk(velocity: ArrayLike, rate: float) -> float:
         raise InvalidArgument("velocity: all zero. Smoothness is defined for a motion.")
     duration = (len(v) - 1) / rate
     jerk_squared = np.sum(np.diff(v, n=2, axis=0) ** 2, axis=1) * rate**4
-    integral = float(trapezoid(np.pad(jerk_squared, 1, mode="edge"), dx=1.0 / rate))  # the ends have no difference
+    integral = float(
+        trapezoid(np.pad(jerk_squared, 1, mode="edge"), dx=1.0 / rate)
+    )  # the ends have no difference
     return float(-np.log(duration**3 / peak**2 * integral)) if integral > 0.0 else float("inf")
 
 

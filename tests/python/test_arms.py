@@ -12,7 +12,9 @@ from dmpcpp.errors import InvalidArgument, MissingDependency
 pytest.importorskip("pybullet_data", reason="the URDFs of the known arms come with pybullet")
 
 
-@pytest.mark.parametrize("name, joints, tip", [("panda", 7, "panda_hand"), ("iiwa", 7, "lbr_iiwa_link_7"), ("xarm6", 6, "link6")])
+@pytest.mark.parametrize(
+    "name, joints, tip", [("panda", 7, "panda_hand"), ("iiwa", 7, "lbr_iiwa_link_7"), ("xarm6", 6, "link6")]
+)
 def test_a_known_arm_is_found_by_name(name, joints, tip):
     arm = arms.find(name)
     assert arm.joint_count == joints

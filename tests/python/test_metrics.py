@@ -1,6 +1,6 @@
 """Measures of how far motions are apart, against closed forms and independent definitions."""
 
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 import pytest
@@ -102,7 +102,9 @@ def test_smoothness_depends_neither_on_size_nor_on_duration():
 def test_sparc_is_the_arc_length_of_the_normalised_spectrum():
     speed = minimum_jerk_speed(0.8, 200.0) + 0.3 * minimum_jerk_speed(0.8, 200.0)[::-1] ** 2
     count = 2 ** (int(np.ceil(np.log2(len(speed)))) + 4)
-    spectrum = [abs(np.sum(speed * np.exp(-2j * np.pi * k * np.arange(len(speed)) / count))) for k in range(300)]
+    spectrum = [
+        abs(np.sum(speed * np.exp(-2j * np.pi * k * np.arange(len(speed)) / count))) for k in range(300)
+    ]
     spectrum = np.array(spectrum) / max(spectrum)
     hertz = np.arange(300) * 200.0 / count
     last = max(k for k in range(300) if hertz[k] <= 10.0 and spectrum[k] >= 0.05)
@@ -121,7 +123,7 @@ def test_tremor_makes_a_motion_less_smooth_by_both_measures():
 
 
 def frechet_by_its_recursion(p, q):
-    @lru_cache(maxsize=None)
+    @cache
     def leash(i, j):
         here = float(np.linalg.norm(p[i] - q[j]))
         if i == 0 and j == 0:

@@ -4,12 +4,14 @@
 it is first needed; without it ``execute`` raises ``MissingDependency``.
 """
 
+from dmpcpp.simulation.bullet import Bullet
 from dmpcpp.simulation.execution import contacts_along, execute
 from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation.simulator import Contact, Simulator
 from dmpcpp.simulation.verdict import Check, Tolerances, Verdict, judge
 
 __all__ = [
+    "Bullet",
     "Check",
     "Contact",
     "ContactEvent",

@@ -216,6 +216,12 @@ def _refuse_joints(arm: Arm, joints: JointTrajectory) -> None:
         )
     if len(joints.time) < 2:
         raise InvalidArgument(f"joints: {len(joints.time)} sample(s), expected at least 2.")
+    backwards = np.flatnonzero(~(np.diff(joints.time) > 0.0))
+    if len(backwards):
+        k = backwards[0] + 1
+        raise InvalidArgument(
+            f"joints.time[{k}]: {joints.time[k]} s after {joints.time[k - 1]} s: runs backwards or stands still."
+        )
     for name in ("position", "velocity", "acceleration"):
         bad = np.flatnonzero(~np.isfinite(getattr(joints, name)).all(axis=1))
         if len(bad):
