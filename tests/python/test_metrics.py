@@ -147,7 +147,7 @@ def test_frechet_is_the_recursion_of_eiter_and_mannila(p, q):
 def test_frechet_sees_an_offset_but_neither_tempo_nor_lag():
     u = np.linspace(0.0, 1.0, 200)
     path = np.column_stack([np.cos(3 * u), np.sin(3 * u), u])
-    assert metrics.frechet(path, path + [0.005, 0.0, 0.0]) == pytest.approx(0.005)
+    assert metrics.frechet(path, path + np.array([0.005, 0.0, 0.0])) == pytest.approx(0.005)
     assert metrics.frechet(path, path[::2]) < 0.02
 
 

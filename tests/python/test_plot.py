@@ -75,7 +75,7 @@ def test_a_picture_leaves_pyplot_and_its_settings_alone(tmp_path):
         "p = np.random.default_rng(0).random((30, 3)); t = np.arange(30.0);"
         f"plot.picture(r'{tmp_path / 'a.png'}', demonstrated=p, planned=p, executed=p,"
         " errors=[plot.ErrorCurve('a', t, t, t)]);"
-        "import matplotlib.pyplot as pyplot; assert not pyplot.get_fignums(); assert dict(m.rcParams) == before"
+        "import matplotlib.pyplot as pp; assert not pp.get_fignums(); assert dict(m.rcParams) == before"
     )
     subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
 

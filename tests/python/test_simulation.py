@@ -32,7 +32,7 @@ PENDULUM = """<robot name="pendulum"><link name="base"/>
 
 @dataclass(frozen=True)
 class Joints:
-    """A joint trajectory made here: what ``InverseKinematics.follow`` returns, without the inverse kinematics."""
+    """A joint trajectory made by hand, with the fields of ``dmpcpp.JointTrajectory``."""
 
     time: np.ndarray
     position: np.ndarray
@@ -78,7 +78,7 @@ def panda_log(panda):
     return simulation.execute(panda, swing(panda))
 
 
-# ---- accuracy ------------------------------------------------------------------------------------------------
+# ---- accuracy -----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", ["panda", "iiwa", "xarm6"])
@@ -122,7 +122,7 @@ def test_two_worlds_at_once_do_not_touch_each_other(panda):
         assert not np.array_equal(other.state()[0], there)
 
 
-# ---- closed forms --------------------------------------------------------------------------------------------
+# ---- closed forms -------------------------------------------------------------------------------------
 
 
 def test_the_torque_of_a_pendulum_is_its_equation_of_motion():
@@ -183,7 +183,7 @@ def test_fingers_are_held_still(panda):
         assert np.allclose([world._q[k] for k in fingers], before, atol=1e-4)
 
 
-# ---- from rest to rest ---------------------------------------------------------------------------------------
+# ---- from rest to rest --------------------------------------------------------------------------------
 
 
 def test_a_motion_cut_in_mid_swing_is_led_in_from_rest_and_out_to_rest(panda, panda_log):
@@ -244,7 +244,7 @@ def test_started_in_flight_there_is_no_lead_in(panda):
     assert log.errors.position_max <= 1e-5
 
 
-# ---- one fault of each kind is caught ------------------------------------------------------------------------
+# ---- one fault of each kind is caught -----------------------------------------------------------------
 
 
 class WrongMasses(Bullet):
@@ -389,6 +389,40 @@ def test_tighter_tolerances_fail_what_the_defaults_pass(panda_log):
     assert [check.name for check in strict.failed] == ["velocity_ratio"]
 
 
+def stretched(joints, factor):
+    return replace(
+        joints,
+        time=joints.time * factor,
+        velocity=joints.velocity / factor,
+        acceleration=joints.acceleration / factor**2,
+    )
+
+
+def test_a_motion_too_fast_for_the_motors_is_slowed_just_enough_by_the_torque_factor(panda):
+    fast = reach(panda, np.add(HOME["panda"], [0.0, 0.5, 0.0, 0.5, 0.5, -0.5, 0.5]), 0.35)
+    factor = simulation.torque_duration_factor(panda, fast, share=0.9)
+    before = simulation.execute(panda, fast).verdict["torque_ratio"].value
+    after = simulation.execute(panda, stretched(fast, factor)).verdict["torque_ratio"].value
+    assert before > 1.0 and factor > 1.0
+    assert after == pytest.approx(0.9, abs=0.01)
+    assert simulation.torque_duration_factor(panda, stretched(fast, factor), share=0.9) == pytest.approx(1.0)
+
+
+def test_the_torque_factor_of_a_damped_pendulum_is_its_closed_form():
+    arm = Arm.from_urdf(PENDULUM.format(ixx=0.02), base="base", tip="rod")
+    one = np.ones((2, 1))
+    joints = Joints(
+        np.arange(2.0), np.pi / 2 * one, 30.0 * one, 100.0 * one, list(arm.joint_names)
+    )  # hanging down
+    factor = simulation.torque_duration_factor(arm, joints, share=1.0)
+    assert 0.35 * 100.0 / factor**2 + 0.7 * 30.0 / factor == pytest.approx(50.0)
+
+
+def test_a_pose_that_can_not_be_held_has_no_finite_torque_factor(panda):
+    weak = panda.with_limits(effort=[87.0, 10.0, 87.0, 87.0, 12.0, 12.0, 12.0])
+    assert simulation.torque_duration_factor(weak, swing(weak)) == np.inf
+
+
 def test_contacts_along_a_path_are_found_without_moving(panda):
     path = np.linspace(HOME["panda"], [0.0, 0.9, 0.0, -1.75, 0.0, 2.55, 0.8], 40)
     found = simulation.contacts_along(panda, path)
@@ -398,7 +432,7 @@ def test_contacts_along_a_path_are_found_without_moving(panda):
     assert simulation.contacts_along(panda, path[:20]) == []
 
 
-# ---- manners -------------------------------------------------------------------------------------------------
+# ---- manners ------------------------------------------------------------------------------------------
 
 
 def test_nothing_is_printed(panda, capfd):

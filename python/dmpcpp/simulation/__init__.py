@@ -8,6 +8,7 @@ from dmpcpp.simulation.bullet import Bullet
 from dmpcpp.simulation.execution import contacts_along, execute
 from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation.simulator import Contact, Simulator
+from dmpcpp.simulation.torque_scaling import torque_duration_factor
 from dmpcpp.simulation.verdict import Check, Tolerances, Verdict, judge
 
 __all__ = [
@@ -22,4 +23,5 @@ __all__ = [
     "contacts_along",
     "execute",
     "judge",
+    "torque_duration_factor",
 ]

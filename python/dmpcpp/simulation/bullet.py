@@ -56,6 +56,7 @@ class Bullet:
     def __init__(
         self, arm: Arm, time_step: float, *, floor: float | None = 0.0, visuals: bool = False
     ) -> None:
+        """Load the arm into a world of its own."""
         if not (np.isfinite(time_step) and time_step > 0.0):
             raise InvalidArgument(f"time_step: {time_step}, expected a positive number of seconds.")
         self.arm = arm
@@ -168,9 +169,11 @@ class Bullet:
             self._client = -1
 
     def __enter__(self) -> Self:
+        """The world, open until the end of the block."""
         return self
 
     def __exit__(self, *failure: object) -> None:
+        """Close it."""
         self.close()
 
     # ---- setting up --------------------------------------------------------------------------------------
@@ -214,7 +217,7 @@ class Bullet:
         self._servo_limit = np.minimum(self.arm.effort_limit, _UNLIMITED_TORQUE).tolist()
 
     def _refuse_folded_joints(self, infos: list[Any]) -> None:
-        """A mimic joint between base and tip moves with its master in ``Arm``; here it would be held still."""
+        """A mimic joint between base and tip moves with its master in ``Arm``, but would be held here."""
         link = self._tip
         while link not in (self._base, -1):
             info = infos[link]

@@ -46,7 +46,7 @@ def execute(
         Control and physics steps a second [Hz].
     mode : {"computed_torque", "position"}
         ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) in
-        the measured state, clipped at the arm's effort limits (Siciliano et al., Robotics, 2009, section 8.5.2).
+        the measured state, clipped at the effort limits (Siciliano et al., Robotics, 2009, section 8.5.2).
         ``"position"``: a sanity check; the engine's own motors reach the next reference inside the step. It
         tests kinematics and the torque cap only, and can not feel a load.
     kp, kd : float
@@ -220,7 +220,7 @@ def _refuse_joints(arm: Arm, joints: JointTrajectory) -> None:
     if len(backwards):
         k = backwards[0] + 1
         raise InvalidArgument(
-            f"joints.time[{k}]: {joints.time[k]} s after {joints.time[k - 1]} s: runs backwards or stands still."
+            f"joints.time[{k}]: {joints.time[k]} s after {joints.time[k - 1]} s: it runs backwards."
         )
     for name in ("position", "velocity", "acceleration"):
         bad = np.flatnonzero(~np.isfinite(getattr(joints, name)).all(axis=1))

@@ -76,6 +76,8 @@ class Simulator(Protocol):
     def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
         """Contacts with the arm put at ``position`` (n,) rad, at rest; no dynamics. It stays there."""
 
-    def __enter__(self) -> Self: ...
+    def __enter__(self) -> Self:
+        """The world, open until the end of the block."""
 
-    def __exit__(self, *failure: object) -> None: ...
+    def __exit__(self, *failure: object) -> None:
+        """Close it."""
