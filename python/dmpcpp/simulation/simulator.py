@@ -1,0 +1,83 @@
+"""What an execution asks of a physics engine: the small interface that every engine stands behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp._core import Arm
+
+FLOOR = "floor"
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A link of the arm that touches another of its links, the floor or an object.
+
+    Attributes
+    ----------
+    link, other : str
+        Names of the two that touch; ``other`` is ``"floor"`` for the ground.
+    depth : float
+        How deep they overlap [m], >= 0.
+    """
+
+    link: str
+    other: str
+    depth: float
+
+
+class Simulator(Protocol):
+    """An arm with a fixed base in a world with gravity, advanced one ``time_step`` at a time.
+
+    Joint vectors have the order of ``arm.joint_names``. Every other moving joint of the robot (fingers) is
+    held where it stands. Poses are 4x4 in the frame of ``arm.base``. Use it in a ``with`` statement: leaving
+    closes it.
+    """
+
+    name: str
+    """Engine and version, for the report."""
+    arm: Arm
+    time_step: float
+    """Duration of one step [s]."""
+    repaired_links: tuple[str, ...]
+    """Links whose inertia is not one of a rigid body and was replaced (see ``robot_description``)."""
+
+    def reset(self, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+        """Put the arm into a state: (n,) rad and (n,) rad/s."""
+
+    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Measured joint position (n,) rad and velocity (n,) rad/s."""
+
+    def inverse_dynamics(self, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Torque (n,) Nm for ``acceleration`` (n,) rad/s^2 in this state, gravity and damping included."""
+
+    def apply_torque(self, torque: NDArray[np.float64]) -> None:
+        """Set the joint torque (n,) Nm of the next step."""
+
+    def servo(self, position: NDArray[np.float64]) -> None:
+        """Let the engine's own motors reach ``position`` (n,) rad in the next step, if the torque allows."""
+
+    def servo_torque(self) -> NDArray[np.float64]:
+        """Torque (n,) Nm that the engine's position motors gave in the last step."""
+
+    def step(self) -> None:
+        """Advance by ``time_step``."""
+
+    def tool_pose(self) -> NDArray[np.float64]:
+        """Measured pose (4, 4) of ``arm.tip`` by the engine's own forward kinematics."""
+
+    def contacts(self) -> list[Contact]:
+        """Contacts found at the start of the last step."""
+
+    def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
+        """Contacts with the arm put at ``position`` (n,) rad, at rest; no dynamics. It stays there."""
+
+    def __enter__(self) -> Self:
+        """The world, open until the end of the block."""
+
+    def __exit__(self, *failure: object) -> None:
+        """Close it."""
