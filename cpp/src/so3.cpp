@@ -128,7 +128,7 @@ Quaterniond exp_quaternion(const Vector3d& v) noexcept {
     w = 1.0 + t * (-1.0 / 8 + t * (1.0 / 384 + t * (-1.0 / 46080 + t * (1.0 / 10321920 - t / 3715891200.0))));
     scale = 0.5 + t * (-1.0 / 48 + t * (1.0 / 3840 + t * (-1.0 / 645120 + t * (1.0 / 185794560))));
   } else {
-    const double theta = v.stableNorm();
+    const double theta = std::isfinite(t) ? std::sqrt(t) : v.stableNorm();
     w = std::cos(0.5 * theta);
     scale = std::sin(0.5 * theta) / theta;
   }
@@ -141,7 +141,8 @@ Vector3d log(const Quaterniond& q) noexcept {
   const double sign = points_down(q) ? -1.0 : 1.0;
   const Vector3d v = sign * q.vec();
   const double w = sign * q.w();
-  const double n = v.stableNorm();
+  const double squared = v.squaredNorm();
+  const double n = squared > 1e-200 ? std::sqrt(squared) : v.stableNorm();
   if (n < 1e-8 * w) return v * (2.0 / w) * (1.0 - n * n / (3.0 * w * w));
   if (n == 0.0) return Vector3d::Zero();
   return v * (2.0 * std::atan2(n, w) / n);

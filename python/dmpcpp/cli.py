@@ -45,10 +45,18 @@ def main() -> None:
 def _arm_options(command: Callable[..., None]) -> Callable[..., None]:
     options = (
         click.option(
-            "--arm", default="panda", show_default=True, metavar="NAME|FILE.urdf", help="panda, iiwa, xarm6, or a URDF."
+            "--arm",
+            default="panda",
+            show_default=True,
+            metavar="NAME|FILE.urdf",
+            help="panda, iiwa, xarm6, or a URDF.",
         ),
         click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given."),
-        click.option("--tip", metavar="LINK", help="The link of a URDF that follows the motion; its only leaf unless given."),
+        click.option(
+            "--tip",
+            metavar="LINK",
+            help="The link of a URDF that follows the motion; its only leaf unless given.",
+        ),
     )
     for option in reversed(options):
         command = option(command)
@@ -66,8 +74,12 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 help="Folder for model.json, plan.npz, joints.csv, picture.png, summary.json.",
             ),
             click.option("--seed", default=0, show_default=True, help="Of the search for a placement."),
-            click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."),
-            click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
+            click.option(
+                "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
+            ),
+            click.option(
+                "--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."
+            ),
         )
         for option in reversed(options):
             command = option(command)
@@ -77,7 +89,9 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
 
 
 @main.command()
-@click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
+@click.option(
+    "--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet."
+)
 @click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
 @_arm_options
 @_run_options("dmpcpp-demo")
@@ -94,15 +108,25 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @main.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several.")
-@click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file.")
+@click.option(
+    "--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file."
+)
 @click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it.")
 @click.option("--time-unit", metavar="s|ms|us|ns", help="Unit of times, where the format does not say it.")
 @click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times.")
 @click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array.")
-@click.option("--up-axis", metavar="x|y|z", help="The recording's axis that points up, where the format does not say it.")
+@click.option(
+    "--up-axis",
+    metavar="x|y|z",
+    help="The recording's axis that points up, where the format does not say it.",
+)
 @click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..).")
 @click.option("--delimiter", metavar="C", help="Between the cells of a table.")
-@click.option("--columns", metavar="time=..,x=..", help="Columns of a table: time, x, y, z, qx, qy, qz, qw by name or number.")
+@click.option(
+    "--columns",
+    metavar="time=..,x=..",
+    help="Columns of a table: time, x, y, z, qx, qy, qz, qw by name or number.",
+)
 @click.option("--start", type=float, default=0.0, metavar="S", help="Use the motion from here [s].")
 @click.option("--end", type=float, metavar="S", help="Use the motion up to here [s].")
 @click.option("--low-pass", type=float, metavar="HZ", help="Remove what is faster (zero-phase Butterworth).")
@@ -151,13 +175,22 @@ def _columns(text: str) -> dict[str, str | int]:
 
 
 def _carry_out(
-    recording: Recording, arm: Arm, *, out: Path, seed: int, basis_count: int | None, as_json: bool, place: bool = True
+    recording: Recording,
+    arm: Arm,
+    *,
+    out: Path,
+    seed: int,
+    basis_count: int | None,
+    as_json: bool,
+    place: bool = True,
 ) -> None:
     from dmpcpp import imitation
 
     _refuse_file(out)
     with _progress(as_json) as progress:
-        run = imitation.imitate(recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress)
+        run = imitation.imitate(
+            recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress
+        )
     imitation.write(run, out)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
@@ -176,7 +209,8 @@ def _refuse_file(out: Path) -> None:
 def _progress(hidden: bool) -> Iterator[Progress]:
     """Show a bar on stderr while the flow runs."""
     from rich.console import Console
-    from rich.progress import BarColumn, Progress as Bar, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
 
     from dmpcpp.imitation import STAGES
 
@@ -209,7 +243,10 @@ def _print(run: Imitation, out: Path) -> None:
     console.print(_errors_table(run, Table))
     console.print(_checks_table(run, Table))
     verdict = "[bold green]verified[/]" if run.ok else "[bold red]not verified[/]"
-    console.print(f"{verdict}: {run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}.", soft_wrap=True)
+    console.print(
+        f"{verdict}: {run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}.",
+        soft_wrap=True,
+    )
     console.print(f"written to {out}/", soft_wrap=True)
 
 
@@ -226,7 +263,10 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
     for stage, errors in run.stages.items():
         lengths = (1e3 * errors.position_rmse, 1e3 * errors.position_max)
         turns = (57.29577951308232 * errors.angle_rmse, 57.29577951308232 * errors.angle_max)
-        table.add_row(names[stage], *(f"{value:.2g}" if value < 0.01 else f"{value:.3f}" for value in (*lengths, *turns)))
+        table.add_row(
+            names[stage],
+            *(f"{value:.2g}" if value < 0.01 else f"{value:.3f}" for value in (*lengths, *turns)),
+        )
     return table
 
 
@@ -237,5 +277,7 @@ def _checks_table(run: Imitation, table_type: type) -> Any:
     for check in run.checks:
         where = f"{check.time:.2f} s " if check.time is not None else ""
         mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
-        table.add_row(mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, where + check.detail)
+        table.add_row(
+            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, where + check.detail
+        )
     return table

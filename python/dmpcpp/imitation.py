@@ -250,7 +250,13 @@ def _reproduction_checks(errors: StageErrors) -> tuple[Check, ...]:
             _LIMIT_POSITION,
             "m",
         ),
-        Check("reproduction_angle_rmse", errors.angle_rmse <= _LIMIT_ANGLE, errors.angle_rmse, _LIMIT_ANGLE, "rad"),
+        Check(
+            "reproduction_angle_rmse",
+            errors.angle_rmse <= _LIMIT_ANGLE,
+            errors.angle_rmse,
+            _LIMIT_ANGLE,
+            "rad",
+        ),
     )
 
 
@@ -261,7 +267,9 @@ def _picture(run: Imitation, path: Path) -> None:
     solved = run.log.arm.forward_kinematics(run.joints.position)
     executed = run.log.tool_pose[during]
 
-    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
+    def curve(
+        label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
+    ) -> plot.ErrorCurve:
         return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
 
     with replacing(path) as temporary:

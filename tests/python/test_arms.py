@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 import pytest
-
 from dmpcpp import arms
 from dmpcpp.errors import InvalidArgument, MissingDependency
 

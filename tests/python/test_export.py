@@ -4,10 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
-
 from dmpcpp import atomic, export, recordings
 from dmpcpp.errors import FileError, InvalidArgument
+from scipy.spatial.transform import Rotation
 
 TIME = np.linspace(0.0, 1.0, 21)
 

@@ -4,13 +4,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from dmpcpp import metrics
+from dmpcpp.errors import InvalidArgument
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
-
-from dmpcpp import metrics
-from dmpcpp.errors import InvalidArgument
 
 
 def poses(positions, rotations=None):

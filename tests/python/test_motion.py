@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
-
 from dmpcpp import motion, recordings
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Recording
+from scipy.spatial.transform import Rotation
 
 
 def screw(rate=100.0, duration=2.0, spin=1.5) -> Recording:

@@ -5,7 +5,6 @@ import sys
 
 import numpy as np
 import pytest
-
 from dmpcpp import plot
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
 

@@ -4,11 +4,10 @@ import json
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
-
 from dmpcpp import recordings
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
 from dmpcpp.recordings import Recording
+from scipy.spatial.transform import Rotation
 
 TURNS = Rotation.from_rotvec(np.linspace([0.0, 0.0, 0.0], [0.4, -1.0, 2.0], 12))
 TIMES = 0.1 * np.arange(12.0)

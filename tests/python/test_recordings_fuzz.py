@@ -5,11 +5,10 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
-
 from dmpcpp import recordings
 from dmpcpp.errors import FileError, InvalidArgument
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 STATED = {
     "deepmimic": {"body": "right_hand"},

@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
-
 from dmpcpp import motion, recordings
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement, place
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 angle = st.floats(-3.0, 3.0)
 vector = st.tuples(angle, angle, angle).map(np.array)

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
-
 from dmpcpp import Arm, arms
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation.robot_description import describe, is_physical, nearest_physical
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 URDF = """<robot name="r"><link name="base"/><link name="tool"><inertial><mass value="1"/>{inertia}</inertial>
   <collision><geometry><mesh filename="{mesh}"/></geometry></collision></link>

@@ -13,11 +13,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Axis, Recording
 from dmpcpp.retarget.placement import Placement
