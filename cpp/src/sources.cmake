@@ -22,4 +22,15 @@ set(DMP_kinematics_SOURCES
   inverse_kinematics.cpp
   path_tracking.cpp
   time_scaling.cpp
-  detail/urdf_chain.cpp)
+  detail/bounded_lm.cpp
+  detail/box_step.cpp
+  detail/flat_chain.cpp
+  detail/ik_search.cpp
+  detail/joint_range.cpp
+  detail/joint_spline.cpp
+  detail/kdl_backend.cpp
+  detail/kdl_forward.cpp
+  detail/path_tracker.cpp
+  detail/route_search.cpp
+  detail/urdf_chain.cpp
+  detail/urdf_scan.cpp)

@@ -1,4 +1,320 @@
+#include <pybind11/native_enum.h>
+#include <pybind11/stl.h>
+#include <dmp/arm.hpp>
+#include <dmp/error.hpp>
+#include <dmp/inverse_kinematics.hpp>
+#include <dmp/path_tracking.hpp>
+#include <dmp/time_scaling.hpp>
+
+#include "arrays.hpp"
 #include "bind.hpp"
+
 namespace dmp::python {
-void bind_kinematics(pybind11::module_&) {}
+namespace {
+
+// A property that copies an Eigen vector of the object into a new array.
+template <class Owner>
+auto vector_of(const Eigen::VectorXd& (Owner::*get)() const) {
+  return [get](const Owner& owner) { return from_vector((owner.*get)()); };
+}
+
+std::optional<Eigen::VectorXd> optional_vector(const std::optional<Array>& array, const std::string& name) {
+  if (!array) return std::nullopt;
+  return to_vector(*array, name);
+}
+
+// `options` with the keywords written over its fields.
+template <class Options>
+Options with_fields(const std::optional<Options>& options, const py::kwargs& fields) {
+  py::object object = py::cast(options.value_or(Options{}));
+  for (const auto& [name, value] : fields) {
+    if (!py::hasattr(object, name))
+      throw py::type_error("unknown option '" + py::str(name).cast<std::string>() + "'.");
+    py::setattr(object, name, py::reinterpret_borrow<py::object>(value));
+  }
+  return object.cast<Options>();
+}
+
+void bind_arm(py::module_& m) {
+  py::class_<Arm>(m, "Arm",
+                  R"(The serial chain of n free joints from the link `base` to the link `tip` of a robot.
+
+An immutable value that any number of threads may use. Fixed joints are folded away, mimic joints move with their
+master. Radians for turning joints, metres for sliding ones; poses are tip in base.)")
+      .def_static(
+          "from_urdf", &Arm::from_urdf, py::arg("text"), py::arg("base") = "", py::arg("tip") = "",
+          R"(Read a URDF; base "" is the root link, tip "" the only link without children below the base.
+
+Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.)")
+      .def_static(
+          "from_urdf_file",
+          [](const py::object& path, const std::string& base, const std::string& tip) {
+            return Arm::from_urdf_file(py::module_::import("os").attr("fspath")(path).cast<std::string>(),
+                                       base, tip);
+          },
+          py::arg("path"), py::arg("base") = "", py::arg("tip") = "",
+          "Read a URDF from a file and keep its folder. Raises FileError if it can not be read.")
+      .def(
+          "with_limits",
+          [](const Arm& arm, const std::optional<Array>& lower, const std::optional<Array>& upper,
+             const std::optional<Array>& velocity, const std::optional<Array>& effort) {
+            return arm.with_limits({optional_vector(lower, "lower"), optional_vector(upper, "upper"),
+                                    optional_vector(velocity, "velocity"),
+                                    optional_vector(effort, "effort")});
+          },
+          py::kw_only(), py::arg("lower") = py::none(), py::arg("upper") = py::none(),
+          py::arg("velocity") = py::none(), py::arg("effort") = py::none(),
+          "A copy with other joint limits, each of n values; what is None stays.")
+      .def_property_readonly("name", &Arm::name, "Name of the robot.")
+      .def_property_readonly("base", &Arm::base, "Link in whose frame poses are given.")
+      .def_property_readonly("tip", &Arm::tip, "Link whose pose is given.")
+      .def_property_readonly("joint_count", &Arm::joint_count, "Number of free joints, n.")
+      .def_property_readonly("joint_names", &Arm::joint_names,
+                             "Names of the n free joints, from base to tip.")
+      .def_property_readonly("lower", vector_of(&Arm::lower), "(n,) rad or m; -inf for a continuous joint.")
+      .def_property_readonly("upper", vector_of(&Arm::upper), "(n,) rad or m; inf for a continuous joint.")
+      .def_property_readonly("velocity_limit", vector_of(&Arm::velocity_limit),
+                             "(n,) rad/s or m/s; inf where the URDF states none.")
+      .def_property_readonly("effort_limit", vector_of(&Arm::effort_limit),
+                             "(n,) N m or N; inf where the URDF states none.")
+      .def_property_readonly("warnings", &Arm::warnings, "What is doubtful in the URDF, one sentence each.")
+      .def_property_readonly("urdf", &Arm::urdf, "The text that was read.")
+      .def_property_readonly("folder", &Arm::folder,
+                             "Folder of the file that was read; empty after from_urdf.")
+      .def(
+          "forward_kinematics",
+          [](const Arm& arm, const Array& q) -> py::array_t<double> {
+            if (q.ndim() == 2)
+              return from_poses(arm.forward_kinematics(to_matrix(q, "q", arm.joint_count())));
+            return from_pose(arm.forward_kinematics(to_vector(q, "q")));
+          },
+          py::arg("q"), "Pose of the tip (4, 4) at joints (n,), or poses (T, 4, 4) at joints (T, n), by KDL.")
+      .def(
+          "jacobian",
+          [](const Arm& arm, const Array& q) { return from_matrix(arm.jacobian(to_vector(q, "q"))); },
+          py::arg("q"),
+          "(6, n) linear velocity (rows 0-2), then angular velocity of the tip (rows 3-5), in the base "
+          "frame, by KDL.")
+      .def(
+          "manipulability",
+          [](const Arm& arm, const Array& q) { return arm.manipulability(to_vector(q, "q")); }, py::arg("q"),
+          "sqrt(det(J J^T)), 0 where the arm is singular (Yoshikawa 1985).")
+      .def("__repr__", [](const Arm& arm) {
+        return "<Arm '" + arm.name() + "': " + std::to_string(arm.joint_count()) + " joints from '" +
+               arm.base() + "' to '" + arm.tip() + "'>";
+      });
+}
+
+void bind_results(py::module_& m) {
+  py::native_enum<IkStatus>(m, "IkStatus", "enum.Enum", "Why joints do or do not meet a pose.")
+      .value("ok", IkStatus::ok)
+      .value("out_of_reach", IkStatus::out_of_reach)
+      .value("limit_blocked", IkStatus::limit_blocked)
+      .value("step_limited", IkStatus::step_limited)
+      .value("singular", IkStatus::singular)
+      .value("budget", IkStatus::budget)
+      .value("invalid_input", IkStatus::invalid_input)
+      .finalize();
+  py::class_<IkResult>(m, "IkResult",
+                       "The joints whose tip is at the pose, or as close to it as the search came.")
+      .def_property_readonly(
+          "joints", [](const IkResult& r) { return from_vector(r.joints); }, "(n,) rad or m.")
+      .def_readonly("status", &IkResult::status)
+      .def_property_readonly("ok", &IkResult::ok, "True if status is ok.")
+      .def_readonly("position_error", &IkResult::position_error, "m, by KDL's forward kinematics.")
+      .def_readonly("angle_error", &IkResult::angle_error, "rad, by KDL's forward kinematics.")
+      .def_readonly("iterations", &IkResult::iterations)
+      .def_readonly("limit_margin", &IkResult::limit_margin, "rad or m from the nearest joint limit.")
+      .def_readonly("blocked", &IkResult::blocked, "Indices of the joints that a limit holds back.")
+      .def("__repr__", [](const IkResult& r) {
+        return std::string("<IkResult ") + name_of(r.status) + ": " + std::to_string(1e3 * r.position_error) +
+               " mm, " + std::to_string(r.angle_error) + " rad>";
+      });
+  py::class_<IkBatch>(m, "IkBatch", "What solve_many found for N poses.")
+      .def_property_readonly(
+          "joints", [](const IkBatch& b) { return from_matrix(b.joints); }, "(N, n) rad or m.")
+      .def_readonly("status", &IkBatch::status, "N times IkStatus.")
+      .def_property_readonly(
+          "position_error", [](const IkBatch& b) { return from_vector(b.position_error); }, "(N,) m.")
+      .def_property_readonly(
+          "angle_error", [](const IkBatch& b) { return from_vector(b.angle_error); }, "(N,) rad.")
+      .def_readonly("solved", &IkBatch::solved, "How many poses have the status ok.");
+}
+
+void bind_joint_trajectory(py::module_& m) {
+  py::class_<PathReport>(m, "PathReport", "How well joints follow a path of T poses.")
+      .def_property_readonly(
+          "position_error", [](const PathReport& r) { return from_vector(r.position_error); }, "(T,) m.")
+      .def_property_readonly(
+          "angle_error", [](const PathReport& r) { return from_vector(r.angle_error); }, "(T,) rad.")
+      .def_readonly("status", &PathReport::status, "T times IkStatus.")
+      .def_readonly("solved", &PathReport::solved, "How many poses have the status ok.")
+      .def_readonly("missed", &PathReport::missed,
+                    "First and last index of each run of poses that were missed.")
+      .def_readonly("max_step", &PathReport::max_step, "rad or m, the largest step of any joint.")
+      .def_readonly("velocity_ratio", &PathReport::velocity_ratio,
+                    "The largest speed over the velocity limit.")
+      .def_readonly("limit_margin", &PathReport::limit_margin,
+                    "rad or m, the smallest distance from a joint limit.")
+      .def_readonly("starts_tried", &PathReport::starts_tried, "Joint paths that were tracked.")
+      .def_property_readonly("complete", &PathReport::complete, "True if every pose is met.")
+      .def("summary", &PathReport::summary,
+           "The worst errors and the runs that were missed, in one sentence.")
+      .def("__repr__", [](const PathReport& r) { return "<PathReport: " + r.summary() + ">"; });
+  py::class_<JointTrajectory>(m, "JointTrajectory",
+                              "Joints over time, with the derivatives of their C2 cubic spline.")
+      .def_static(
+          "through",
+          [](const Array& times, const Array& positions, const std::vector<std::string>& names) {
+            return JointTrajectory::through(to_vector(times, "times"), to_matrix(positions, "positions"),
+                                            names);
+          },
+          py::arg("times"), py::arg("positions"), py::arg("joint_names") = std::vector<std::string>{},
+          "The C2 cubic spline (not-a-knot ends) through positions (T, n) at times (T,).")
+      .def_property_readonly(
+          "time", [](const JointTrajectory& j) { return from_vector(j.time); }, "(T,) s.")
+      .def_property_readonly(
+          "position", [](const JointTrajectory& j) { return from_matrix(j.position); }, "(T, n) rad.")
+      .def_property_readonly(
+          "velocity", [](const JointTrajectory& j) { return from_matrix(j.velocity); }, "(T, n) rad/s.")
+      .def_property_readonly(
+          "acceleration", [](const JointTrajectory& j) { return from_matrix(j.acceleration); },
+          "(T, n) rad/s^2.")
+      .def_readonly("joint_names", &JointTrajectory::joint_names)
+      .def_readonly("report", &JointTrajectory::report);
+}
+
+void bind_options(py::module_& m) {
+  py::native_enum<IkBackend>(m, "IkBackend", "enum.Enum",
+                             "Which KDL position solver makes the single descents.")
+      .value("bounded_lm", IkBackend::bounded_lm)
+      .value("kdl_lma", IkBackend::kdl_lma)
+      .value("kdl_nr_jl", IkBackend::kdl_nr_jl)
+      .finalize();
+  py::class_<IkOptions>(m, "IkOptions", "How InverseKinematics searches.")
+      .def(py::init<>())
+      .def_readwrite("backend", &IkOptions::backend)
+      .def_readwrite("position_tolerance", &IkOptions::position_tolerance, "m, > 0.")
+      .def_readwrite("angle_tolerance", &IkOptions::angle_tolerance, "rad, > 0.")
+      .def_readwrite("angle_weight", &IkOptions::angle_weight,
+                     "m per rad: closest is position + weight * angle.")
+      .def_readwrite("iteration_limit", &IkOptions::iteration_limit, "Of one solve, all restarts together.")
+      .def_readwrite("max_step", &IkOptions::max_step, "rad or m: how far solve may leave the seed.")
+      .def_readwrite("diagnose", &IkOptions::diagnose,
+                     "Search on without limits to tell why a pose is missed.")
+      .def_readwrite("random_seed", &IkOptions::random_seed);
+  py::class_<FollowOptions>(m, "FollowOptions", "How InverseKinematics.follow goes about a path.")
+      .def(py::init<>())
+      .def_property(
+          "start",
+          [](const FollowOptions& o) -> py::object {
+            return o.start ? py::object(from_vector(*o.start)) : py::none();
+          },
+          [](FollowOptions& o, const std::optional<Array>& q) { o.start = optional_vector(q, "start"); },
+          "(n,) where the robot already stands, or None to search.")
+      .def_readwrite("max_step", &FollowOptions::max_step, "rad or m from one pose to the next.")
+      .def_readwrite("respect_velocity", &FollowOptions::respect_velocity)
+      .def_readwrite("anchors", &FollowOptions::anchors, "Poses of the path at which starts are searched.")
+      .def_readwrite("starts", &FollowOptions::starts, "Joints tried at each anchor.")
+      .def_readwrite("position_tolerance", &FollowOptions::position_tolerance,
+                     "m: when a pose counts as met.")
+      .def_readwrite("angle_tolerance", &FollowOptions::angle_tolerance, "rad: when a pose counts as met.");
+}
+
+Eigen::VectorXd seed_or_middle(const InverseKinematics& ik, const std::optional<Array>& seed) {
+  if (!seed) return ik.middle();
+  const Eigen::VectorXd q = to_vector(*seed, "seed");
+  if (q.size() != ik.arm().joint_count() || !q.allFinite())
+    throw InvalidArgument("seed: expected " + std::to_string(ik.arm().joint_count()) + " finite values.");
+  return q;
+}
+
+void refuse_invalid(const IkResult& result, const std::string& name) {
+  if (result.status == IkStatus::invalid_input)
+    throw InvalidArgument(name +
+                          ": expected a finite [R p; 0 1] with R orthonormal to 1e-3 and det(R) = +1.");
+}
+
+IkBatch solve_many(const InverseKinematics& ik, const Array& poses, const std::optional<Array>& seed) {
+  const Poses targets = to_poses(poses, "poses");
+  const Eigen::VectorXd from = seed_or_middle(ik, seed);
+  InverseKinematics own = ik;  // so that other threads may use `ik` meanwhile
+  const py::gil_scoped_release release;
+  IkBatch batch = own.solve_many(targets, from);
+  for (std::size_t k = 0; k < targets.size(); ++k)
+    if (batch.status[k] == IkStatus::invalid_input)
+      throw InvalidArgument("poses[" + std::to_string(k) +
+                            "]: expected a finite [R p; 0 1] with R orthonormal to 1e-3 and det(R) = +1.");
+  return batch;
+}
+
+JointTrajectory follow(const InverseKinematics& ik, const py::object& path, const std::optional<Array>& times,
+                       const std::optional<FollowOptions>& options, const py::kwargs& fields) {
+  const bool is_trajectory = py::hasattr(path, "pose") && py::hasattr(path, "time");
+  if (!is_trajectory && !times)
+    throw InvalidArgument("times: missing; pass a trajectory with .time and .pose, or poses and times.");
+  const Poses poses = to_poses((is_trajectory ? path.attr("pose") : path).cast<Array>(), "poses");
+  const Eigen::VectorXd seconds = to_vector(times ? *times : path.attr("time").cast<Array>(), "times");
+  const FollowOptions chosen = with_fields(options, fields);
+  InverseKinematics own = ik;
+  const py::gil_scoped_release release;
+  return own.follow(seconds, poses, chosen);
+}
+
+void bind_solver(py::module_& m) {
+  py::class_<InverseKinematics>(m, "InverseKinematics",
+                                R"(Joints for poses of an Arm's tip.
+
+The fields of IkOptions are taken as keywords too. Every answer depends on the arguments and the options alone.)")
+      .def(py::init([](const Arm& arm, const std::optional<IkOptions>& options, const py::kwargs& fields) {
+             return InverseKinematics(arm, with_fields(options, fields));
+           }),
+           py::arg("arm"), py::arg("options") = py::none())
+      .def_property_readonly("arm", &InverseKinematics::arm)
+      .def_property_readonly("options", [](const InverseKinematics& ik) { return ik.options(); })
+      .def_property_readonly(
+          "middle", [](const InverseKinematics& ik) { return from_vector(ik.middle()); },
+          "(n,) the middle of each joint's range: the seed where none is given.")
+      .def(
+          "solve",
+          [](InverseKinematics& ik, const Array& pose, const std::optional<Array>& seed) {
+            const IkResult result = ik.solve(to_pose(pose, "pose"), seed_or_middle(ik, seed));
+            refuse_invalid(result, "pose");
+            return result;
+          },
+          py::arg("pose"), py::arg("seed") = py::none(),
+          R"(Joints (n,) whose tip is at the pose (4, 4), or as close as can be, with a status that says why.
+
+Never raises because a pose is out of reach; raises InvalidArgument for a pose that is none.)")
+      .def("solve_many", &solve_many, py::arg("poses"), py::arg("seed") = py::none(),
+           "solve() for each of the poses (N, 4, 4), each begun at the last joints that met theirs. Releases "
+           "the GIL.")
+      .def("follow", &follow, py::arg("path"), py::arg("times") = py::none(), py::arg("options") = py::none(),
+           R"(Joints for a whole path, with a report for every pose. Releases the GIL.
+
+`path` is a trajectory with .time (T,) and .pose (T, 4, 4), or the poses themselves with times=(T,) in s.
+The fields of FollowOptions are taken as keywords too.)");
+}
+
+}  // namespace
+
+void bind_kinematics(py::module_& m) {
+  bind_arm(m);
+  bind_results(m);
+  bind_joint_trajectory(m);
+  bind_options(m);
+  bind_solver(m);
+  m.def(
+      "duration_factor",
+      [](const JointTrajectory& joints, const Array& velocity_limit, const Array& acceleration_limit) {
+        return duration_factor(joints, to_vector(velocity_limit, "velocity_limit"),
+                               to_vector(acceleration_limit, "acceleration_limit"));
+      },
+      py::arg("joints"), py::arg("velocity_limit"), py::arg("acceleration_limit"),
+      "The smallest factor on the duration with which the joints' spline stays within the limits (n,) and "
+      "(n,).");
+  m.def("stretched", &stretched, py::arg("joints"), py::arg("factor"),
+        "The same path, `factor` times as long from the same first time.");
+}
+
 }  // namespace dmp::python

@@ -1,1 +1,308 @@
 #include <doctest/doctest.h>
+#include <dmp/arm.hpp>
+#include <dmp/error.hpp>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#include "arms.hpp"
+
+using arms::JointText;
+using dmp::Arm;
+using doctest::Approx;
+
+namespace {
+
+std::string refusal(const std::string& text, const std::string& base = "", const std::string& tip = "") {
+  try {
+    Arm::from_urdf(text, base, tip);
+  } catch (const dmp::InvalidArgument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool refuses_with(const std::string& text, const std::string& words) {
+  const std::string message = refusal(text);
+  INFO(message);
+  CHECK(message.find(words) != std::string::npos);
+  return message.find(words) != std::string::npos;
+}
+
+std::string one_joint(const JointText& joint) { return arms::urdf({joint}); }
+
+// Composes the transforms of the joints as the URDF specification states them, without KDL.
+Eigen::Matrix4d by_definition(const Eigen::VectorXd& q) {
+  struct J {
+    Eigen::Vector3d xyz, rpy, axis;
+  };
+  const std::vector<J> joints = {
+      {{0, 0, .33}, {0, 0, 0}, {0, 0, 1}},         {{0, 0, 0}, {.1, 0, 0}, {0, 1, 0}},
+      {{0, 0, .31}, {0, 0, .3}, {.6, 0, .8}},      {{.08, 0, 0}, {0, 0, 0}, {0, 1, 0}},
+      {{-.08, 0, .38}, {0, .2, 0}, {0, 0, 1}},     {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}},
+      {{.09, 0, .1}, {3.14159, 0, 0}, {0, 0, -1}}, {{0, 0, -.1}, {0, 0, -.785}, {0, 0, 1}}};
+  Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const J& joint = joints[i];
+    tip = tip * Eigen::Translation3d(joint.xyz) * Eigen::AngleAxisd(joint.rpy.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(joint.rpy.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(joint.rpy.x(), Eigen::Vector3d::UnitX());
+    if (i < 7) tip = tip * Eigen::AngleAxisd(q[static_cast<Eigen::Index>(i)], joint.axis);
+  }
+  return tip.matrix();
+}
+
+}  // namespace
+
+TEST_CASE("The two-link arm stands where the closed form says") {
+  const Arm arm = Arm::from_urdf(arms::two_link());
+  CHECK(arm.joint_count() == 2);
+  CHECK(arm.base() == "link0");
+  CHECK(arm.tip() == "link3");
+  CHECK(arm.joint_names() == std::vector<std::string>{"joint1", "joint2"});
+  const Eigen::Vector2d q(0.4, -1.1);
+  const Eigen::Matrix4d pose = arm.forward_kinematics(Eigen::VectorXd(q));
+  CHECK(pose(0, 3) == Approx(std::cos(0.4) + std::cos(-0.7)).epsilon(1e-15));
+  CHECK(pose(1, 3) == Approx(std::sin(0.4) + std::sin(-0.7)).epsilon(1e-15));
+  CHECK(pose(1, 0) == Approx(std::sin(-0.7)).epsilon(1e-15));
+  CHECK(arm.manipulability(q) > 0.0);
+  // Yoshikawa's measure over the two joints: det(J^T J) of the planar arm with the angular row.
+  CHECK(arm.manipulability(Eigen::Vector2d(0.4, 0.0)) < arm.manipulability(q));
+}
+
+TEST_CASE("Forward kinematics agree with the definition of a URDF joint, oblique axes and all") {
+  const Arm arm = Arm::from_urdf(arms::seven_joints());
+  std::mt19937 random(1);
+  for (int k = 0; k < 1000; ++k) {
+    const Eigen::VectorXd q = arms::random_joints(arm, random);
+    REQUIRE((arm.forward_kinematics(q) - by_definition(q)).cwiseAbs().maxCoeff() < 1e-12);
+  }
+}
+
+TEST_CASE("The Jacobian is the derivative of the forward kinematics") {
+  const Arm arm = Arm::from_urdf(arms::seven_joints());
+  std::mt19937 random(2);
+  const double h = 1e-6;
+  for (int k = 0; k < 50; ++k) {
+    const Eigen::VectorXd q = arms::random_joints(arm, random);
+    const Eigen::MatrixXd jacobian = arm.jacobian(q);
+    const Eigen::Matrix3d rotation = arm.forward_kinematics(q).topLeftCorner<3, 3>();
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      const Eigen::VectorXd dq = h * Eigen::VectorXd::Unit(q.size(), i);
+      const Eigen::Matrix4d rate = (arm.forward_kinematics(Eigen::VectorXd(q + dq)) -
+                                    arm.forward_kinematics(Eigen::VectorXd(q - dq))) /
+                                   (2 * h);
+      const Eigen::Matrix3d spin = rate.topLeftCorner<3, 3>() * rotation.transpose();
+      REQUIRE((rate.topRightCorner<3, 1>() - jacobian.col(i).head<3>()).norm() < 1e-8);
+      REQUIRE((Eigen::Vector3d(spin(2, 1), spin(0, 2), spin(1, 0)) - jacobian.col(i).tail<3>()).norm() <
+              1e-8);
+    }
+  }
+}
+
+TEST_CASE("A table of joints gives the pose of each row") {
+  const Arm arm = Arm::from_urdf(arms::two_link());
+  dmp::RowMatrix q(2, 2);
+  q << 0.1, 0.2, -0.3, 0.4;
+  const dmp::Poses poses = arm.forward_kinematics(q);
+  REQUIRE(poses.size() == 2);
+  CHECK(poses[1] == arm.forward_kinematics(Eigen::VectorXd(q.row(1).transpose())));
+}
+
+TEST_CASE("Prismatic and continuous joints move as they should") {
+  const Arm arm =
+      Arm::from_urdf(arms::urdf({{"", R"(<axis xyz="1 0 0"/>)", "prismatic",
+                                  R"(<limit lower="-0.5" upper="0.7" velocity="0.1" effort="9"/>)"},
+                                 {"", R"(<axis xyz="0 0 -1"/>)", "continuous", ""}}));
+  const Eigen::Matrix4d pose = arm.forward_kinematics(Eigen::VectorXd(Eigen::Vector2d(0.3, 0.5)));
+  CHECK(pose(0, 3) == Approx(0.3));
+  CHECK(pose(1, 0) == Approx(std::sin(-0.5)));
+  CHECK(arm.lower()[0] == -0.5);
+  CHECK(arm.upper()[1] == std::numeric_limits<double>::infinity());
+  CHECK(arm.velocity_limit()[1] == std::numeric_limits<double>::infinity());
+  CHECK(arm.effort_limit()[0] == 9.0);
+}
+
+TEST_CASE("A mimic joint moves with its master, in the Jacobian too") {
+  const std::string text = arms::urdf(
+      {{},
+       {R"(<origin xyz="1 0 0"/>)", R"(<axis xyz="0 0 1"/>)", "revolute",
+        R"(<limit lower="-1" upper="1" velocity="3" effort="50"/><mimic joint="joint1" multiplier="-2" offset="0.1"/>)"},
+       {R"(<origin xyz="1 0 0"/>)", "", "fixed", ""}});
+  const Arm arm = Arm::from_urdf(text);
+  REQUIRE(arm.joint_count() == 1);
+  const double q1 = 0.3, q2 = -2 * q1 + 0.1;
+  const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, q1);
+  CHECK(arm.forward_kinematics(q)(0, 3) == Approx(std::cos(q1) + std::cos(q1 + q2)));
+  CHECK(arm.jacobian(q)(0, 0) == Approx(-std::sin(q1) + std::sin(q1 + q2)));
+  CHECK(arm.jacobian(q)(5, 0) == Approx(-1.0));
+  // The follower's range of -1 to 1 leaves the master -0.45 to 0.55, its 3 rad/s leave 1.5.
+  CHECK(arm.lower()[0] == Approx(-0.45));
+  CHECK(arm.upper()[0] == Approx(0.55));
+  CHECK(arm.velocity_limit()[0] == Approx(1.5));
+}
+
+TEST_CASE("Soft limits narrow the range, zero soft limits are ignored with a warning") {
+  const std::string limit = R"(<limit lower="-2" upper="2" velocity="3" effort="50"/>)";
+  const Arm narrow = Arm::from_urdf(one_joint(
+      {"", R"(<axis xyz="0 0 1"/>)", "revolute",
+       limit + R"(<safety_controller k_velocity="1" soft_lower_limit="-1.5" soft_upper_limit="1"/>)"}));
+  CHECK(narrow.lower()[0] == -1.5);
+  CHECK(narrow.upper()[0] == 1.0);
+  CHECK(narrow.warnings().empty());
+  const Arm zero = Arm::from_urdf(one_joint(
+      {"", R"(<axis xyz="0 0 1"/>)", "revolute", limit + R"(<safety_controller k_velocity="1"/>)"}));
+  CHECK(zero.upper()[0] == 2.0);
+  REQUIRE(zero.warnings().size() == 1);
+  CHECK(zero.warnings()[0].find("joint1") != std::string::npos);
+}
+
+TEST_CASE("Limits of zero velocity or effort count as not stated, with a warning") {
+  const Arm arm = Arm::from_urdf(one_joint({"", R"(<axis xyz="0 0 1"/>)", "revolute",
+                                            R"(<limit lower="-2" upper="2" velocity="0" effort="0"/>)"}));
+  CHECK(arm.velocity_limit()[0] == std::numeric_limits<double>::infinity());
+  CHECK(arm.warnings().size() == 2);
+}
+
+TEST_CASE("An impossible inertia is a warning that names the link") {
+  std::string text = arms::two_link();
+  text.replace(
+      text.find(R"(<link name="link1"/>)"), 20,
+      R"(<link name="link1"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0"
+                  izz="9"/></inertial></link>)");
+  const Arm arm = Arm::from_urdf(text);
+  REQUIRE(arm.warnings().size() == 1);
+  CHECK(arm.warnings()[0].find("link1") != std::string::npos);
+}
+
+TEST_CASE("Joints with which no motion can be planned are refused by name") {
+  const std::string z = R"(<axis xyz="0 0 1"/>)";
+  const std::string limit = R"(<limit lower="-2" upper="2" velocity="3" effort="50"/>)";
+  CHECK(refuses_with(one_joint({"", z, "revolute", ""}), "joint1"));
+  CHECK(
+      refuses_with(one_joint({"", z, "revolute", R"(<limit velocity="3" effort="50"/>)"}), "lower < upper"));
+  CHECK(refuses_with(
+      one_joint({"", z, "revolute", R"(<limit lower="1" upper="-1" velocity="3" effort="50"/>)"}),
+      "lower < upper"));
+  CHECK(
+      refuses_with(one_joint({"", z, "revolute", R"(<limit lower="-1" upper="1" effort="50"/>)"}), "joint1"));
+  CHECK(refuses_with(one_joint({"", R"(<axis xyz="0 0 0"/>)", "revolute", limit}), "axis"));
+  CHECK(refuses_with(one_joint({"", z, "floating", ""}), "floating"));
+  CHECK(refuses_with(one_joint({"", z, "planar", ""}), "planar"));
+  CHECK(refuses_with(one_joint({"", z, "hinge", limit}), "hinge"));
+  CHECK(refuses_with(one_joint({"", z, "revolute", limit + R"(<mimic joint="elsewhere"/>)"}), "elsewhere"));
+  CHECK(refuses_with(one_joint({R"(<origin xyz="nan 0 0"/>)", z, "revolute", limit}), "joint1"));
+}
+
+TEST_CASE("Numbers that are none are refused") {
+  const std::string z = R"(<axis xyz="0 0 1"/>)";
+  for (const char* number : {"nan", "1e400", "-1,5", "${pi}", ""}) {
+    CAPTURE(number);
+    const std::string limit =
+        "<limit lower=\"" + std::string(number) + "\" upper=\"2\" velocity=\"3\" effort=\"50\"/>";
+    CHECK(refusal(one_joint({"", z, "revolute", limit})) != "");
+  }
+}
+
+TEST_CASE("Graphs that are no trees are refused and never hang") {
+  const auto joint = [](const char* name, const char* parent, const char* child) {
+    return std::string("<joint name=\"") + name + "\" type=\"fixed\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/></joint>";
+  };
+  const std::string links = R"(<link name="a"/><link name="b"/><link name="c"/><link name="d"/>)";
+  const auto robot = [&](const std::string& joints) {
+    return "<robot name=\"r\">" + links + joints + "</robot>";
+  };
+  CHECK(refuses_with(robot(joint("j", "a", "a")), "cycle"));
+  CHECK(refuses_with(robot(joint("j", "a", "b") + joint("k", "b", "a")), "cycle"));
+  CHECK(refuses_with(robot(joint("j", "a", "b") + joint("k", "c", "d") + joint("l", "d", "c")), "cycle"));
+  CHECK(refuses_with(robot(joint("j", "a", "c") + joint("k", "b", "c")), "two joints"));
+  CHECK(refuses_with(robot(joint("j", "a", "b")), "urdfdom"));  // c and d are roots too
+  CHECK(refuses_with(robot(joint("j", "a", "nowhere")), "nowhere"));
+}
+
+TEST_CASE("Text that is no URDF is refused, with the words of urdfdom and without printing") {
+  std::ostringstream printed;
+  std::streambuf* const console = std::cerr.rdbuf(printed.rdbuf());
+  CHECK(refuses_with("", "urdf"));
+  CHECK(refuses_with("hello", "urdf"));
+  CHECK(refuses_with("<robot name='r'>", "urdf"));
+  CHECK(refuses_with("<model/>", "robot"));
+  CHECK(refuses_with("<robot name='r'></robot>", "urdf"));
+  std::string deep = "<robot name='r'>";
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  CHECK(refuses_with(deep, "nested"));
+  std::cerr.rdbuf(console);
+  CHECK(printed.str().empty());
+}
+
+TEST_CASE("Links that do not exist or could be several are answered with a list") {
+  const std::string text = arms::two_link();
+  CHECK(refusal(text, "link0", "hand").find("link0, link1, link2, link3") != std::string::npos);
+  CHECK(refusal(text, "world").find("base: no link 'world'") == 0);
+  CHECK(refusal(text, "link2", "link1").find("does not hang below") != std::string::npos);
+  CHECK(refusal(text, "link2", "link3").find("no moving joint") != std::string::npos);
+  std::string forked = text;
+  forked.replace(
+      forked.find("</robot>"), 8,
+      R"(<link name="other"/><joint name="fork" type="fixed"><parent link="link1"/><child link="other"/></joint></robot>)");
+  CHECK(refusal(forked).find("link3, other") != std::string::npos);
+  CHECK(Arm::from_urdf(forked, "", "other").joint_count() == 1);
+}
+
+TEST_CASE("with_limits replaces what is given and keeps the rest") {
+  const Arm arm = Arm::from_urdf(arms::two_link());
+  const Arm slow = arm.with_limits({std::nullopt, std::nullopt, Eigen::Vector2d(0.5, 0.6), std::nullopt});
+  CHECK(slow.velocity_limit() == Eigen::Vector2d(0.5, 0.6));
+  CHECK(slow.lower() == arm.lower());
+  CHECK(arm.velocity_limit() == Eigen::Vector2d(3.0, 3.0));
+  dmp::LimitOverrides bad;
+  bad.lower = Eigen::Vector2d(0.0, 3.0);
+  CHECK_THROWS_WITH_AS(arm.with_limits(bad), doctest::Contains("lower[1]"), dmp::InvalidArgument);
+  bad.lower = Eigen::VectorXd::Zero(3);
+  CHECK_THROWS_AS(arm.with_limits(bad), dmp::InvalidArgument);
+}
+
+TEST_CASE("Joints of the wrong number or not finite are refused") {
+  const Arm arm = Arm::from_urdf(arms::two_link());
+  CHECK_THROWS_AS(arm.forward_kinematics(Eigen::VectorXd(Eigen::VectorXd::Zero(3))), dmp::InvalidArgument);
+  CHECK_THROWS_WITH_AS(arm.jacobian(Eigen::Vector2d(0.0, std::nan(""))), doctest::Contains("q[1]"),
+                       dmp::InvalidArgument);
+}
+
+TEST_CASE("An arm from a file knows its folder; a missing file is a FileError") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "dmp_test_arm.urdf";
+  std::ofstream(file) << arms::two_link();
+  const Arm arm = Arm::from_urdf_file(file.string());
+  CHECK(arm.folder() == file.parent_path().string());
+  CHECK(arm.urdf() == arms::two_link());
+  std::filesystem::remove(file);
+  CHECK_THROWS_WITH_AS(Arm::from_urdf_file(file.string()), doctest::Contains("dmp_test_arm.urdf"),
+                       dmp::FileError);
+  CHECK_THROWS_AS(Arm::from_urdf_file("/"), dmp::FileError);
+}
+
+TEST_CASE("Threads that share an arm get the serial answers, bit for bit") {
+  const Arm arm = Arm::from_urdf(arms::seven_joints());
+  std::mt19937 random(3);
+  std::vector<Eigen::VectorXd> joints;
+  std::vector<Eigen::Matrix4d> serial;
+  for (int k = 0; k < 5000; ++k) {
+    joints.push_back(arms::random_joints(arm, random));
+    serial.push_back(arm.forward_kinematics(joints.back()));
+  }
+  std::array<int, 4> wrong{};
+  std::vector<std::thread> threads;
+  for (int& count : wrong)
+    threads.emplace_back([&] {
+      for (std::size_t k = 0; k < joints.size(); ++k)
+        count += arm.forward_kinematics(joints[k]) != serial[k] ? 1 : 0;
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(wrong == std::array<int, 4>{});
+}

@@ -1,1 +1,255 @@
 #include <doctest/doctest.h>
+#include <dmp/error.hpp>
+#include <dmp/inverse_kinematics.hpp>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <thread>
+
+#include "arms.hpp"
+
+using arms::within_limits;
+using dmp::Arm;
+using dmp::IkResult;
+using dmp::IkStatus;
+using dmp::InverseKinematics;
+
+namespace {
+
+Arm two_link() { return Arm::from_urdf(arms::two_link()); }
+Arm seven_joints() { return Arm::from_urdf(arms::seven_joints()); }
+
+struct Errors {
+  double position, angle;
+};
+
+// Measured with the arm's forward kinematics (KDL), independently of what a result says of itself.
+Errors errors(const Arm& arm, const Eigen::VectorXd& q, const Eigen::Matrix4d& pose) {
+  const Eigen::Matrix4d tip = arm.forward_kinematics(q);
+  const Eigen::Matrix3d between = pose.topLeftCorner<3, 3>() * tip.topLeftCorner<3, 3>().transpose();
+  const Eigen::Quaterniond turn(between);
+  return {(pose - tip).topRightCorner<3, 1>().norm(),
+          2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()))};
+}
+
+}  // namespace
+
+TEST_CASE("Every reachable pose of a seven-joint arm is met within the limits from any seed") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm);
+  std::mt19937 random(1);
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+    const IkResult found = ik.solve(pose, arms::random_joints(arm, random));
+    CAPTURE(k);
+    REQUIRE(found.ok());
+    REQUIRE(within_limits(arm, found.joints));
+    const Errors error = errors(arm, found.joints, pose);
+    REQUIRE(error.position <= 1e-6);
+    REQUIRE(error.angle <= 1.1e-6);
+    REQUIRE(found.position_error == doctest::Approx(error.position));
+  }
+}
+
+TEST_CASE("The two-link arm finds the elbow of the closed form, on the side of the seed") {
+  const Arm arm = two_link();
+  InverseKinematics ik(arm);
+  const Eigen::Vector2d q(0.3, 1.2);
+  const Eigen::Matrix4d pose = arm.forward_kinematics(Eigen::VectorXd(q));
+  CHECK((ik.solve(pose, Eigen::Vector2d(0.0, 0.5)).joints - q).norm() < 1e-5);
+}
+
+TEST_CASE("Joints that already meet the pose are returned as they are") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm);
+  std::mt19937 random(2);
+  const Eigen::VectorXd q = arms::random_joints(arm, random);
+  const IkResult found = ik.solve(arm.forward_kinematics(q), q);
+  CHECK(found.joints == q);
+  CHECK(found.iterations <= 1);
+}
+
+TEST_CASE("The same question gets the same answer to the last bit, whatever was asked before") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm), other(arm);
+  std::mt19937 random(3);
+  const Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+  const Eigen::VectorXd first = ik.solve(pose).joints;
+  other.solve(arm.forward_kinematics(arms::random_joints(arm, random)));
+  CHECK(other.solve(pose).joints == first);
+  InverseKinematics copy = other;
+  CHECK(copy.solve(pose).joints == first);
+}
+
+TEST_CASE("A pose beyond the arm's length is out of reach, and the arm points at it") {
+  const Arm arm = two_link();
+  InverseKinematics ik(arm);
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topLeftCorner<3, 3>() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  pose.topRightCorner<3, 1>() = 3.0 * Eigen::Vector3d(std::cos(0.5), std::sin(0.5), 0.0);
+  const IkResult found = ik.solve(pose);
+  CHECK(found.status == IkStatus::out_of_reach);
+  CHECK(found.position_error == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK((found.joints - Eigen::Vector2d(0.5, 0.0)).norm() < 1e-3);
+}
+
+TEST_CASE("A pose that only the limits forbid is limit_blocked, and the joints that block it are named") {
+  const Arm blocked =
+      two_link().with_limits({Eigen::Vector2d(-2.0, -2.0), Eigen::Vector2d(0.2, 2.0), {}, {}});
+  InverseKinematics ik(blocked);
+  // Reached by (0.5, 0.0) only: stretched, and turned further than joint 0 may go.
+  const IkResult found = ik.solve(two_link().forward_kinematics(Eigen::VectorXd(Eigen::Vector2d(0.5, 0.0))));
+  CHECK(found.status == IkStatus::limit_blocked);
+  CHECK(found.blocked == std::vector<Eigen::Index>{0});
+  CHECK(found.joints[0] == 0.2);
+  CHECK(found.limit_margin == 0.0);
+}
+
+TEST_CASE("A step that is too short is step_limited and stays within the step") {
+  const Arm arm = seven_joints();
+  dmp::IkOptions options;
+  options.max_step = 0.05;
+  InverseKinematics ik(arm, options);
+  const Eigen::VectorXd seed = ik.middle();
+  const IkResult near = ik.solve(arm.forward_kinematics(Eigen::VectorXd(seed.array() + 0.01)), seed);
+  CHECK(near.ok());
+  const IkResult far = ik.solve(arm.forward_kinematics(Eigen::VectorXd(seed.array() + 0.4)), seed);
+  CHECK(far.status == IkStatus::step_limited);
+  CHECK((far.joints - seed).cwiseAbs().maxCoeff() <= 0.05 + 1e-15);
+}
+
+TEST_CASE("Too small a budget says so") {
+  dmp::IkOptions options;
+  options.iteration_limit = 2;
+  InverseKinematics ik(seven_joints(), options);
+  const Eigen::VectorXd q = Eigen::VectorXd::Constant(7, -0.9);
+  const IkResult found = ik.solve(ik.arm().forward_kinematics(q));
+  CHECK(found.status == IkStatus::budget);
+  CHECK(found.iterations <= 2);
+}
+
+TEST_CASE("Out of reach, no random joints come closer than the answer") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm);
+  std::mt19937 random(5);
+  for (int k = 0; k < 20; ++k) {
+    Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+    pose.topRightCorner<3, 1>() += Eigen::Vector3d(0.9, 0.0, 0.6);
+    const IkResult found = ik.solve(pose);
+    REQUIRE(within_limits(arm, found.joints));
+    for (int i = 0; i < 2000; ++i) {
+      const Errors error = errors(arm, arms::random_joints(arm, random), pose);
+      REQUIRE(found.position_error + 0.1 * found.angle_error <= error.position + 0.1 * error.angle + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("Poses and seeds that are none are invalid_input and never throw") {
+  const Arm arm = two_link();
+  InverseKinematics ik(arm);
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  CHECK(ik.solve(Eigen::Matrix4d::Constant(std::nan(""))).status == IkStatus::invalid_input);
+  CHECK(ik.solve(pose, Eigen::VectorXd::Zero(3)).status == IkStatus::invalid_input);
+  CHECK(ik.solve(pose, Eigen::Vector2d(0.0, std::nan(""))).status == IkStatus::invalid_input);
+  pose(2, 2) = -1.0;  // a reflection
+  CHECK(ik.solve(pose).status == IkStatus::invalid_input);
+  CHECK(ik.solve(pose).joints.size() == 2);
+}
+
+TEST_CASE("Of several windings the one nearest to the seed is returned") {
+  const std::string wide = R"(<limit lower="-6.2" upper="6.2" velocity="3" effort="50"/>)";
+  const std::string z = R"(<axis xyz="0 0 1"/>)", one = R"(<origin xyz="1 0 0"/>)";
+  const Arm arm = Arm::from_urdf(
+      arms::urdf({{"", z, "revolute", wide}, {one, z, "continuous", ""}, {one, "", "fixed", ""}}));
+  InverseKinematics ik(arm);
+  const Eigen::Vector2d q(5.0, 13.0);
+  const IkResult found =
+      ik.solve(arm.forward_kinematics(Eigen::VectorXd(q)), Eigen::VectorXd(q.array() + 0.2));
+  CHECK(found.ok());
+  CHECK((found.joints - q).norm() < 1e-4);
+  CHECK(std::abs(ik.solve(arm.forward_kinematics(Eigen::VectorXd(q)), Eigen::Vector2d(-1.0, 0.7)).joints[0]) <
+        6.2);
+}
+
+TEST_CASE("Prismatic and mimic joints are solved too") {
+  const Arm arm = Arm::from_urdf(arms::urdf(
+      {{"", R"(<axis xyz="1 0 0"/>)", "prismatic",
+        R"(<limit lower="-1" upper="1" velocity="1" effort="9"/>)"},
+       {},
+       {R"(<origin xyz="0.5 0 0"/>)", R"(<axis xyz="0 0 1"/>)", "revolute",
+        R"(<limit lower="-4" upper="4" velocity="3" effort="50"/><mimic joint="joint2" multiplier="2" offset="0.1"/>)"},
+       {R"(<origin xyz="0.5 0 0"/>)", "", "fixed", ""}}));
+  InverseKinematics ik(arm);
+  const Eigen::Vector2d q(0.3, -0.8);
+  const IkResult found = ik.solve(arm.forward_kinematics(Eigen::VectorXd(q)));
+  CHECK(found.ok());
+  CHECK((found.joints - q).norm() < 1e-5);
+}
+
+TEST_CASE("KDL's own solvers answer through the same search, held to the same limits") {
+  const Arm arm = seven_joints();
+  for (const dmp::IkBackend backend : {dmp::IkBackend::kdl_lma, dmp::IkBackend::kdl_nr_jl}) {
+    dmp::IkOptions options;
+    options.backend = backend;
+    InverseKinematics ik(arm, options);
+    std::mt19937 random(6);
+    int solved = 0;
+    for (int k = 0; k < 50; ++k) {
+      const Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+      const IkResult found = ik.solve(pose, arms::random_joints(arm, random));
+      REQUIRE(within_limits(arm, found.joints));
+      if (found.ok()) REQUIRE(errors(arm, found.joints, pose).position <= 1e-6);
+      solved += found.ok() ? 1 : 0;
+    }
+    CHECK(solved >= 45);
+  }
+}
+
+TEST_CASE("KDL's solvers are refused for joints they do not know") {
+  const Arm arm = Arm::from_urdf(arms::urdf({{"", R"(<axis xyz="0 0 1"/>)", "continuous", ""}}));
+  dmp::IkOptions options;
+  options.backend = dmp::IkBackend::kdl_lma;
+  CHECK_THROWS_WITH_AS(InverseKinematics(arm, options), doctest::Contains("bounded_lm"),
+                       dmp::InvalidArgument);
+}
+
+TEST_CASE("Options out of range are refused by name") {
+  dmp::IkOptions options;
+  options.max_step = -1.0;
+  CHECK_THROWS_WITH_AS(InverseKinematics(two_link(), options), doctest::Contains("max_step"),
+                       dmp::InvalidArgument);
+  options = {};
+  options.iteration_limit = 0;
+  CHECK_THROWS_AS(InverseKinematics(two_link(), options), dmp::InvalidArgument);
+  options = {};
+  options.position_tolerance = std::nan("");
+  CHECK_THROWS_AS(InverseKinematics(two_link(), options), dmp::InvalidArgument);
+}
+
+TEST_CASE("solve_many answers like solve, one pose after the other") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm);
+  std::mt19937 random(7);
+  dmp::Poses poses;
+  for (int k = 0; k < 20; ++k) poses.push_back(arm.forward_kinematics(arms::random_joints(arm, random)));
+  poses[5](0, 3) += 50.0;
+  const dmp::IkBatch batch = ik.solve_many(poses);
+  CHECK(batch.solved == 19);
+  CHECK(batch.status[5] == IkStatus::out_of_reach);
+  CHECK(batch.joints.row(0).transpose() == ik.solve(poses[0]).joints);
+  CHECK(batch.joints.row(6).transpose() == ik.solve(poses[6], batch.joints.row(4).transpose()).joints);
+}
+
+TEST_CASE("Solvers of one arm in several threads give the serial answers, bit for bit") {
+  const Arm arm = seven_joints();
+  std::mt19937 random(8);
+  dmp::Poses poses;
+  for (int k = 0; k < 500; ++k) poses.push_back(arm.forward_kinematics(arms::random_joints(arm, random)));
+  const dmp::RowMatrix serial = InverseKinematics(arm).solve_many(poses).joints;
+  std::array<bool, 3> same{};
+  std::vector<std::thread> threads;
+  for (bool& one : same)
+    threads.emplace_back([&] { one = InverseKinematics(arm).solve_many(poses).joints == serial; });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(same == std::array<bool, 3>{true, true, true});
+}

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <dmp/export.hpp>
+#include <dmp/trajectory.hpp>
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dmp {
+
+namespace detail {
+struct ChainModel;
+}
+
+/// Replacements for the joint limits of a URDF, each of n values or absent (then what the arm has stays).
+struct LimitOverrides {
+  std::optional<Eigen::VectorXd> lower;     ///< rad or m
+  std::optional<Eigen::VectorXd> upper;     ///< rad or m
+  std::optional<Eigen::VectorXd> velocity;  ///< rad/s or m/s, > 0
+  std::optional<Eigen::VectorXd> effort;    ///< N m or N, > 0
+};
+
+/// The serial chain of n free joints from the link `base` to the link `tip` of a robot.
+///
+/// An immutable value: copies share their data, and any number of threads may use one Arm. Revolute,
+/// continuous and prismatic joints count; fixed joints are folded away; a mimic joint moves with its master
+/// and is not counted. Units are radians for turning joints and metres for sliding ones; poses are tip in
+/// base.
+class DMP_EXPORT Arm {
+ public:
+  /// Reads a URDF. `base` "" is the root link; `tip` "" is the only link without children below the base.
+  /// Throws InvalidArgument, naming the joint or link, when urdfdom refuses the text; when a link does not
+  /// exist or several could be meant (the message lists them); when tip is not below base; when a joint on
+  /// the way floats, is planar, has no axis, no limits, or lower >= upper; when a mimic joint's master is not
+  /// on the way; when links form a cycle. What can be lived with becomes a line in warnings().
+  static Arm from_urdf(const std::string& text, const std::string& base = "", const std::string& tip = "");
+  /// The same from a file; keeps its folder, to which mesh paths are relative. Throws FileError if it can not
+  /// be read.
+  static Arm from_urdf_file(const std::string& path, const std::string& base = "",
+                            const std::string& tip = "");
+
+  /// A copy with other limits, for a URDF whose own are placeholders or a robot that shall be spared.
+  /// Throws InvalidArgument unless the sizes are n, lower < upper, and velocity and effort are > 0.
+  Arm with_limits(const LimitOverrides& limits) const;
+
+  const std::string& name() const;
+  const std::string& base() const;
+  const std::string& tip() const;
+  Eigen::Index joint_count() const;                     ///< n
+  const std::vector<std::string>& joint_names() const;  ///< n, from base to tip
+  const Eigen::VectorXd& lower() const;                 ///< (n); -infinity for a continuous joint
+  const Eigen::VectorXd& upper() const;                 ///< (n); +infinity for a continuous joint
+  const Eigen::VectorXd& velocity_limit() const;        ///< (n) rad/s or m/s; +infinity where none is stated
+  const Eigen::VectorXd& effort_limit() const;          ///< (n) N m or N; +infinity where none is stated
+  const std::vector<std::string>& warnings() const;     ///< what is doubtful in the URDF, one sentence each
+  const std::string& urdf() const;                      ///< the text that was read
+  const std::string& folder() const;                    ///< of the file that was read; "" after from_urdf
+
+  /// The pose of the tip in the base frame at the joints q (n), by KDL. Limits are not checked.
+  /// Throws InvalidArgument if q has another size or is not finite.
+  Eigen::Matrix4d forward_kinematics(const Eigen::VectorXd& q) const;
+  /// One pose for each row of q (T x n).
+  Poses forward_kinematics(const RowMatrix& q) const;
+  /// (6 x n) by KDL: velocity of the tip (rows 0-2, m/s) and angular velocity (rows 3-5, rad/s), in the base
+  /// frame.
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& q) const;
+  /// sqrt(det(J J^T)): the volume of reachable twists (Yoshikawa 1985). 0 where the arm is singular.
+  double manipulability(const Eigen::VectorXd& q) const;
+
+  /// For dmp::kinematics itself.
+  const detail::ChainModel& model() const { return *model_; }
+
+ private:
+  explicit Arm(std::shared_ptr<const detail::ChainModel> model);
+  std::shared_ptr<const detail::ChainModel> model_;
+};
+
+}  // namespace dmp

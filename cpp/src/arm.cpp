@@ -1,0 +1,143 @@
+#include <dmp/arm.hpp>
+#include <dmp/error.hpp>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <kdl/chainjnttojacsolver.hpp>
+#include <sstream>
+
+#include "detail/kdl_forward.hpp"
+#include "detail/urdf_chain.hpp"
+
+namespace dmp {
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw FileError("'" + path + "': the file can not be opened.");
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw FileError("'" + path + "': the file can not be read.");
+  return text.str();
+}
+
+void check_joints(Eigen::Index count, const Eigen::VectorXd& q, const std::string& name) {
+  if (q.size() != count)
+    throw InvalidArgument(name + ": " + std::to_string(q.size()) + " values, expected " +
+                          std::to_string(count) + ", one for each joint.");
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (!std::isfinite(q[i])) throw InvalidArgument(name + "[" + std::to_string(i) + "]: not finite.");
+}
+
+Eigen::Matrix4d matrix_of(const detail::Frame& frame) {
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topLeftCorner<3, 3>() = frame.rotation;
+  pose.topRightCorner<3, 1>() = frame.position;
+  return pose;
+}
+
+void replace(Eigen::VectorXd& limit, const std::optional<Eigen::VectorXd>& other, const std::string& name) {
+  if (!other) return;
+  if (other->size() != limit.size())
+    throw InvalidArgument(name + ": " + std::to_string(other->size()) + " values, expected " +
+                          std::to_string(limit.size()) + ", one for each joint.");
+  limit = *other;
+}
+
+void check_positive(const Eigen::VectorXd& limit, const std::string& name) {
+  for (Eigen::Index i = 0; i < limit.size(); ++i)
+    if (!(limit[i] > 0.0))
+      throw InvalidArgument(name + "[" + std::to_string(i) + "]: " + std::to_string(limit[i]) +
+                            ", expected > 0.");
+}
+
+}  // namespace
+
+Arm::Arm(std::shared_ptr<const detail::ChainModel> model) : model_(std::move(model)) {}
+
+Arm Arm::from_urdf(const std::string& text, const std::string& base, const std::string& tip) {
+  return Arm(std::make_shared<const detail::ChainModel>(detail::read_urdf(text, base, tip)));
+}
+
+Arm Arm::from_urdf_file(const std::string& path, const std::string& base, const std::string& tip) {
+  const std::string text = read_text(path);
+  try {
+    auto model = std::make_shared<detail::ChainModel>(detail::read_urdf(text, base, tip));
+    model->folder = std::filesystem::absolute(path).parent_path().string();
+    return Arm(std::move(model));
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument("'" + path + "': " + error.what());
+  }
+}
+
+Arm Arm::with_limits(const LimitOverrides& limits) const {
+  auto model = std::make_shared<detail::ChainModel>(*model_);
+  replace(model->lower, limits.lower, "lower");
+  replace(model->upper, limits.upper, "upper");
+  replace(model->velocity_limit, limits.velocity, "velocity");
+  replace(model->effort_limit, limits.effort, "effort");
+  for (Eigen::Index i = 0; i < joint_count(); ++i)
+    if (!(model->lower[i] < model->upper[i]))
+      throw InvalidArgument("lower[" + std::to_string(i) + "]: " + std::to_string(model->lower[i]) +
+                            ", expected less than upper = " + std::to_string(model->upper[i]) + ".");
+  check_positive(model->velocity_limit, "velocity");
+  check_positive(model->effort_limit, "effort");
+  return Arm(std::move(model));
+}
+
+const std::string& Arm::name() const { return model_->name; }
+const std::string& Arm::base() const { return model_->base; }
+const std::string& Arm::tip() const { return model_->tip; }
+Eigen::Index Arm::joint_count() const { return model_->lower.size(); }
+const std::vector<std::string>& Arm::joint_names() const { return model_->joint_names; }
+const Eigen::VectorXd& Arm::lower() const { return model_->lower; }
+const Eigen::VectorXd& Arm::upper() const { return model_->upper; }
+const Eigen::VectorXd& Arm::velocity_limit() const { return model_->velocity_limit; }
+const Eigen::VectorXd& Arm::effort_limit() const { return model_->effort_limit; }
+const std::vector<std::string>& Arm::warnings() const { return model_->warnings; }
+const std::string& Arm::urdf() const { return model_->urdf; }
+const std::string& Arm::folder() const { return model_->folder; }
+
+// The chain is shared between threads, the KDL solvers are not: each call has its own (see ChainModel).
+Eigen::Matrix4d Arm::forward_kinematics(const Eigen::VectorXd& q) const {
+  check_joints(joint_count(), q, "q");
+  return matrix_of(detail::KdlForward(*model_)(q));
+}
+
+Poses Arm::forward_kinematics(const RowMatrix& q) const {
+  detail::KdlForward forward(*model_);
+  Poses poses;
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    check_joints(joint_count(), q.row(k), "q[" + std::to_string(k) + "]");
+    poses.push_back(matrix_of(forward(q.row(k).transpose())));
+  }
+  return poses;
+}
+
+Eigen::MatrixXd Arm::jacobian(const Eigen::VectorXd& q) const {
+  check_joints(joint_count(), q, "q");
+  const auto count = static_cast<unsigned>(model_->couplings.size());
+  KDL::ChainJntToJacSolver solver(model_->chain);
+  KDL::JntArray joints(count);
+  KDL::Jacobian all(count);
+  detail::expand(*model_, q, joints);
+  solver.JntToJac(joints, all);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(6, joint_count());
+  for (std::size_t i = 0; i < model_->couplings.size(); ++i) {
+    const detail::Coupling& coupling = model_->couplings[i];
+    jacobian.col(coupling.joint) += coupling.multiplier * all.data.col(static_cast<Eigen::Index>(i));
+  }
+  return jacobian;
+}
+
+double Arm::manipulability(const Eigen::VectorXd& q) const {
+  const Eigen::MatrixXd j = jacobian(q);
+  // Fewer than six joints span a volume of their own number of dimensions.
+  const double square = j.cols() < 6 ? (j.transpose() * j).determinant() : (j * j.transpose()).determinant();
+  return std::sqrt(std::max(square, 0.0));
+}
+
+}  // namespace dmp

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <kdl/chain.hpp>
+#include <string>
+#include <vector>
+
+namespace dmp::detail {
+
+/// How one joint of the KDL chain follows the arm's free joints: q_chain = multiplier * q[joint] + offset.
+/// A mimic joint shares the free joint of its master; every other joint has multiplier 1 and offset 0.
+struct Coupling {
+  Eigen::Index joint;
+  double multiplier;
+  double offset;
+};
+
+/// What an Arm knows: the way from base to tip as KDL sees it, and the limits of its n free joints.
+///
+/// Every joint of the chain is RotZ or TransZ, with the axis turned to z and fixed joints folded into the
+/// segment before. This matters for threads: a KDL::Joint of type RotAxis caches its last pose in a mutable
+/// member, so two threads that share a const chain read each other's poses (KDL issue 373); RotZ and TransZ
+/// cache nothing.
+struct ChainModel {
+  std::string name, base, tip;
+  std::string urdf;
+  std::string folder;
+  std::vector<std::string> joint_names;
+  Eigen::VectorXd lower, upper, velocity_limit, effort_limit;
+  std::vector<std::string> warnings;
+  KDL::Chain chain;
+  std::vector<Coupling> couplings;  ///< one for each joint of the chain
+};
+
+}  // namespace dmp::detail

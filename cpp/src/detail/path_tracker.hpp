@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "bounded_lm.hpp"
+#include "joint_range.hpp"
+
+namespace dmp::detail {
+
+/// A path as the tracker sees it: poses in time, and how far each joint may go from one to the next.
+struct TargetPath {
+  std::vector<double> time;
+  std::vector<Frame> target;
+  std::vector<Joints> step;  ///< step[k] bounds the way from sample k to k + 1; the last one is not used
+};
+
+/// Joints along a path, and what they are worth.
+struct Route {
+  std::vector<Joints> joints;
+  double miss = 0.0;            ///< distances from the poses that are not met, summed
+  double velocity_ratio = 0.0;  ///< the largest step / time / velocity limit
+  double margin = 0.0;          ///< rad or m, the smallest distance from a limit
+
+  bool complete() const { return miss == 0.0; }
+  bool better_than(const Route& other) const;
+};
+
+/// Carries joints from pose to pose. Every pose is solved to the last digits, because a residual of 1e-6 m
+/// that varies from sample to sample becomes 1 m/s^2 at a kilohertz.
+class PathTracker {
+ public:
+  /// `tolerances` say when a pose counts as met.
+  PathTracker(const ChainModel& model, const Tolerances& tolerances);
+
+  /// From `joints` at sample `anchor` to both ends of the path. `pull` [rad per m of motion of the tip]
+  /// drives joints away from their limits in the null space; it acts while the poses are met.
+  Route track(const TargetPath& path, std::size_t anchor, const Joints& joints, double pull) const;
+  /// The closest joints to the first pose that `start` allows, then onwards.
+  Route track_from(const TargetPath& path, const Joints& start, double pull) const;
+
+ private:
+  Descent advance(const Descent& at, const Frame& target, const Joints& step, double pull) const;
+  void walk(const TargetPath& path, Descent at, std::size_t from, int direction, double pull,
+            std::vector<Joints>& joints, double& miss) const;
+  double miss(const Vector6& error) const;
+  void rate(const TargetPath& path, Route& route) const;
+
+  JointRange range_;
+  Joints velocity_limit_;
+  Tolerances tolerances_;
+  BoundedLm lm_;
+};
+
+}  // namespace dmp::detail

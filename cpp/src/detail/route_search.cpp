@@ -1,0 +1,113 @@
+#include "route_search.hpp"
+
+#include <algorithm>
+
+#include "random.hpp"
+
+namespace dmp::detail {
+namespace {
+
+constexpr std::size_t thinned_size = 100;
+constexpr std::size_t refined = 4;  // routes of the thinned path that are tracked through every pose
+constexpr int iterations_for_a_start = 60;
+constexpr double same_posture = 1e-3;  // rad or m
+
+// Every stride-th sample and the last one.
+std::vector<std::size_t> thinned_samples(std::size_t count) {
+  const std::size_t stride = std::max<std::size_t>(1, count / thinned_size);
+  std::vector<std::size_t> samples;
+  for (std::size_t k = 0; k + 1 < count; k += stride) samples.push_back(k);
+  samples.push_back(count - 1);
+  return samples;
+}
+
+TargetPath pick(const TargetPath& path, const std::vector<std::size_t>& samples) {
+  TargetPath result;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Joints step = Joints::Zero(path.step.front().size());
+    for (std::size_t k = samples[i]; i + 1 < samples.size() && k < samples[i + 1]; ++k) step += path.step[k];
+    result.time.push_back(path.time[samples[i]]);
+    result.target.push_back(path.target[samples[i]]);
+    result.step.push_back(step);
+  }
+  return result;
+}
+
+bool contains(const std::vector<Joints>& postures, const Joints& q) {
+  return std::any_of(postures.begin(), postures.end(),
+                     [&](const Joints& other) { return (other - q).cwiseAbs().maxCoeff() < same_posture; });
+}
+
+}  // namespace
+
+RouteSearch::RouteSearch(const ChainModel& model, const Tolerances& tolerances, const FollowOptions& options,
+                         std::uint64_t random_seed)
+    : options_(options),
+      random_seed_(random_seed),
+      range_(model),
+      lm_(model, tolerances, iterations_for_a_start),
+      tracker_(model, tolerances) {}
+
+// Only an arm with joints to spare has a null space to move in.
+std::vector<double> RouteSearch::pulls() const {
+  if (range_.lower.size() > 6) return {0.0, 1.0, 4.0};
+  return {0.0};
+}
+
+// Different joints that meet the target; the closest ones if none do.
+std::vector<Joints> RouteSearch::starts(const Frame& target) {
+  const FiniteRange sampled(range_.lower, range_.upper, range_.middle());
+  Random random(random_seed_);
+  std::vector<Joints> found;
+  Descent closest;
+  Joints start = range_.middle();
+  for (int i = 0; i < options_.starts; ++i) {
+    const Descent end = lm_.descend(target, start, range_.lower, range_.upper, iterations_for_a_start);
+    if (end.converged && !contains(found, end.joints)) found.push_back(end.joints);
+    if (i == 0 || end.error.squaredNorm() < closest.error.squaredNorm()) closest = end;
+    start = random.between(sampled.lower, sampled.upper);
+  }
+  if (found.empty()) found.push_back(closest.joints);
+  return found;
+}
+
+std::vector<RouteSearch::Candidate> RouteSearch::candidates(const TargetPath& path) {
+  std::vector<Candidate> all;
+  const auto anchors = static_cast<std::size_t>(options_.anchors);
+  const std::size_t last = path.target.size() - 1;
+  for (std::size_t a = 0; a < anchors && a <= last; ++a) {
+    const std::size_t anchor = anchors == 1 ? last / 2 : a * last / (anchors - 1);
+    for (const Joints& start : starts(path.target[anchor]))
+      for (const double pull : pulls())
+        all.push_back({tracker_.track(path, anchor, start, pull), anchor, pull});
+  }
+  routes_tried_ += static_cast<int>(all.size());
+  return all;
+}
+
+Route RouteSearch::from_start(const TargetPath& path, const Joints& start) {
+  Route best;
+  for (const double pull : pulls()) {
+    Route route = tracker_.track_from(path, start, pull);
+    if (routes_tried_++ == 0 || route.better_than(best)) best = std::move(route);
+  }
+  return best;
+}
+
+Route RouteSearch::best(const TargetPath& path) {
+  if (options_.start) return from_start(path, Joints(*options_.start));
+  const std::vector<std::size_t> samples = thinned_samples(path.target.size());
+  std::vector<Candidate> all = candidates(pick(path, samples));
+  const std::size_t kept = std::min(refined, all.size());
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(),
+                    [](const Candidate& a, const Candidate& b) { return a.route.better_than(b.route); });
+  Route best;
+  for (std::size_t i = 0; i < kept; ++i) {
+    Route route =
+        tracker_.track(path, samples[all[i].anchor], all[i].route.joints[all[i].anchor], all[i].pull);
+    if (i == 0 || route.better_than(best)) best = std::move(route);
+  }
+  return best;
+}
+
+}  // namespace dmp::detail

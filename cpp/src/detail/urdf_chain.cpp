@@ -1,0 +1,318 @@
+#include "urdf_chain.hpp"
+
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <dmp/error.hpp>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <numeric>
+
+#include "urdf_scan.hpp"
+
+namespace dmp::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Catches what urdfdom would print. console_bridge has one handler for the whole process: hence the lock.
+class CapturedLog : public console_bridge::OutputHandler {
+ public:
+  CapturedLog() : lock_(mutex()), level_(console_bridge::getLogLevel()) {
+    console_bridge::useOutputHandler(this);
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_WARN);
+  }
+  ~CapturedLog() override {
+    console_bridge::setLogLevel(level_);
+    console_bridge::restorePreviousOutputHandler();
+  }
+  CapturedLog(const CapturedLog&) = delete;
+  CapturedLog& operator=(const CapturedLog&) = delete;
+
+  void log(const std::string& line, console_bridge::LogLevel, const char*, int) override {
+    text_ += (text_.empty() ? "" : " ") + line;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::lock_guard<std::mutex> lock_;
+  console_bridge::LogLevel level_;
+  std::string text_;
+};
+
+[[noreturn]] void refuse(const urdf::Joint& joint, const std::string& why) {
+  throw InvalidArgument("urdf: joint '" + joint.name + "': " + why);
+}
+
+std::string listed(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+urdf::ModelInterfaceSharedPtr parse(const std::string& text) {
+  scan_urdf(text);
+  CapturedLog log;
+  urdf::ModelInterfaceSharedPtr model;
+  try {
+    model = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    throw InvalidArgument(std::string("urdf: ") + error.what());
+  }
+  if (!model || !model->getRoot())
+    throw InvalidArgument("urdf: refused by urdfdom: " + (log.text().empty() ? "no root link." : log.text()));
+  return model;
+}
+
+urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std::string& name,
+                                   const std::string& argument) {
+  if (const urdf::LinkConstSharedPtr link = model.getLink(name)) return link;
+  std::vector<std::string> names;
+  for (const auto& entry : model.links_) names.push_back(entry.first);
+  throw InvalidArgument(argument + ": no link '" + name + "' in this URDF; it has: " + listed(names) + ".");
+}
+
+// The only link without children at or below `link`.
+std::string only_leaf(const urdf::Link& base) {
+  std::vector<std::string> leaves;
+  std::vector<const urdf::Link*> open = {&base};
+  while (!open.empty()) {
+    const urdf::Link* const link = open.back();
+    open.pop_back();
+    if (link->child_links.empty()) leaves.push_back(link->name);
+    for (const auto& child : link->child_links) open.push_back(child.get());
+  }
+  if (leaves.size() == 1) return leaves.front();
+  throw InvalidArgument("tip: not given, and the URDF has several ends: " + listed(leaves) +
+                        ". Name one link.");
+}
+
+using Path = std::vector<urdf::JointConstSharedPtr>;
+
+Path path_between(const urdf::ModelInterface& model, const std::string& base, const std::string& tip) {
+  Path path;
+  for (std::string link = tip; link != base;) {
+    const urdf::JointConstSharedPtr joint = model.getLink(link)->parent_joint;
+    if (!joint) throw InvalidArgument("tip: link '" + tip + "' does not hang below base '" + base + "'.");
+    path.push_back(joint);
+    link = joint->parent_link_name;
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+bool moves(const urdf::Joint& joint) { return joint.type != urdf::Joint::FIXED; }
+
+void check_kind(const urdf::Joint& joint) {
+  if (joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR ||
+      joint.type == urdf::Joint::UNKNOWN)
+    refuse(joint,
+           "floating, planar and unknown joints can not stand between base and tip; choose another base.");
+  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  if (!axis.allFinite() || std::abs(axis.norm() - 1.0) > 1e-6)
+    refuse(joint, "its axis is zero or not finite; expected a direction such as xyz=\"0 0 1\".");
+}
+
+struct Range {
+  double lower, upper;
+};
+
+// Soft limits narrow the range; a pair of zeros is how exporters write "none".
+Range with_soft_limits(const urdf::Joint& joint, Range range, std::vector<std::string>& warnings) {
+  if (!joint.safety) return range;
+  const Range soft = {joint.safety->soft_lower_limit, joint.safety->soft_upper_limit};
+  const Range both = {std::max(range.lower, soft.lower), std::min(range.upper, soft.upper)};
+  if ((soft.lower == 0.0 && soft.upper == 0.0) || !(both.lower < both.upper)) {
+    warnings.push_back("joint '" + joint.name + "': safety limits " + std::to_string(soft.lower) + " to " +
+                       std::to_string(soft.upper) + " leave no range and were ignored.");
+    return range;
+  }
+  return both;
+}
+
+Range range_of(const urdf::Joint& joint, std::vector<std::string>& warnings) {
+  if (joint.type == urdf::Joint::CONTINUOUS) return {-infinity, infinity};
+  if (!joint.limits) refuse(joint, "it has no <limit>; expected lower and upper.");
+  const Range range = {joint.limits->lower, joint.limits->upper};
+  if (!(range.lower < range.upper))
+    refuse(joint, "limits lower = " + std::to_string(range.lower) +
+                      ", upper = " + std::to_string(range.upper) +
+                      ", expected lower < upper (a <limit> without them counts as 0 and 0).");
+  return with_soft_limits(joint, range, warnings);
+}
+
+// A limit of zero would forbid every motion: exporters write it for "not known".
+double positive_or_none(double limit, const urdf::Joint& joint, const char* what,
+                        std::vector<std::string>& warnings) {
+  if (limit > 0.0) return limit;
+  warnings.push_back("joint '" + joint.name + "': " + what + " limit " + std::to_string(limit) +
+                     " was ignored.");
+  return infinity;
+}
+
+// Turns z onto the axis; exact for axes along x, y or z.
+Eigen::Isometry3d z_to(const urdf::Vector3& axis) {
+  const Eigen::Vector3d z = Eigen::Vector3d(axis.x, axis.y, axis.z).normalized();
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  if (z == Eigen::Vector3d::UnitZ()) return turn;
+  Eigen::Index least;
+  z.cwiseAbs().minCoeff(&least);
+  const Eigen::Vector3d x = Eigen::Vector3d::Unit(least).cross(z).normalized();
+  turn.linear() << x, z.cross(x), z;
+  return turn;
+}
+
+Eigen::Isometry3d origin_of(const urdf::Joint& joint) {
+  const urdf::Pose& pose = joint.parent_to_joint_origin_transform;
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.translation() << pose.position.x, pose.position.y, pose.position.z;
+  frame.linear() = Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z)
+                       .normalized()
+                       .toRotationMatrix();
+  if (!frame.matrix().allFinite()) refuse(joint, "its <origin> is not finite.");
+  return frame;
+}
+
+KDL::Frame to_kdl(const Eigen::Isometry3d& frame) {
+  const Eigen::Matrix3d r = frame.linear();
+  const Eigen::Vector3d p = frame.translation();
+  return {KDL::Rotation(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)),
+          KDL::Vector(p.x(), p.y(), p.z())};
+}
+
+KDL::Chain chain_of(const Path& path) {
+  KDL::Chain chain;
+  KDL::Joint moving(KDL::Joint::Fixed);
+  Eigen::Isometry3d since = Eigen::Isometry3d::Identity();  // from the last moving joint to here
+  for (const auto& joint : path) {
+    since = since * origin_of(*joint);
+    if (!moves(*joint)) continue;
+    const Eigen::Isometry3d turn = z_to(joint->axis);
+    chain.addSegment(KDL::Segment(moving, to_kdl(since * turn)));
+    moving = KDL::Joint(joint->name,
+                        joint->type == urdf::Joint::PRISMATIC ? KDL::Joint::TransZ : KDL::Joint::RotZ);
+    since = turn.inverse();
+  }
+  chain.addSegment(KDL::Segment(moving, to_kdl(since)));
+  return chain;
+}
+
+// Collects the free joints with their limits, then lets mimic joints follow them.
+class JointTable {
+ public:
+  explicit JointTable(ChainModel& model) : model_(model) {}
+
+  void add_free(const urdf::Joint& joint) {
+    index_[joint.name] = static_cast<Eigen::Index>(model_.joint_names.size());
+    model_.joint_names.push_back(joint.name);
+    ranges_.push_back(range_of(joint, model_.warnings));
+    const bool stated = joint.limits != nullptr;
+    velocity_.push_back(stated ? positive_or_none(joint.limits->velocity, joint, "velocity", model_.warnings)
+                               : infinity);
+    effort_.push_back(stated ? positive_or_none(joint.limits->effort, joint, "effort", model_.warnings)
+                             : infinity);
+  }
+
+  Coupling couple(const urdf::Joint& joint) {
+    if (!joint.mimic) return {index_.at(joint.name), 1.0, 0.0};
+    const auto master = index_.find(joint.mimic->joint_name);
+    if (master == index_.end())
+      refuse(joint,
+             "it mimics '" + joint.mimic->joint_name + "', which is not a free joint between base and tip.");
+    const Coupling coupling = {master->second, joint.mimic->multiplier, joint.mimic->offset};
+    narrow(joint, coupling);
+    return coupling;
+  }
+
+  void finish() {
+    const auto n = static_cast<Eigen::Index>(ranges_.size());
+    model_.lower.resize(n);
+    model_.upper.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      model_.lower[i] = ranges_[static_cast<std::size_t>(i)].lower;
+      model_.upper[i] = ranges_[static_cast<std::size_t>(i)].upper;
+    }
+    model_.velocity_limit = Eigen::Map<const Eigen::VectorXd>(velocity_.data(), n);
+    model_.effort_limit = Eigen::Map<const Eigen::VectorXd>(effort_.data(), n);
+  }
+
+ private:
+  // The master may go only where the joint that follows it may go too, and only so fast.
+  void narrow(const urdf::Joint& joint, const Coupling& coupling) {
+    const double m = coupling.multiplier;
+    if (m == 0.0 || !std::isfinite(m) || !std::isfinite(coupling.offset))
+      refuse(joint, "its mimic multiplier is zero or not finite.");
+    const auto i = static_cast<std::size_t>(coupling.joint);
+    const Range own = range_of(joint, model_.warnings);
+    const auto [low, high] =
+        std::minmax({(own.lower - coupling.offset) / m, (own.upper - coupling.offset) / m});
+    ranges_[i] = {std::max(ranges_[i].lower, low), std::min(ranges_[i].upper, high)};
+    if (!(ranges_[i].lower < ranges_[i].upper))
+      refuse(joint, "its limits leave no range to the joint it mimics.");
+    if (joint.limits && joint.limits->velocity > 0.0)
+      velocity_[i] = std::min(velocity_[i], joint.limits->velocity / std::abs(m));
+  }
+
+  ChainModel& model_;
+  std::map<std::string, Eigen::Index> index_;
+  std::vector<Range> ranges_;
+  std::vector<double> velocity_, effort_;
+};
+
+void read_joints(const Path& path, ChainModel& model) {
+  JointTable table(model);
+  for (const auto& joint : path)
+    if (moves(*joint)) check_kind(*joint);
+  for (const auto& joint : path)
+    if (moves(*joint) && !joint->mimic) table.add_free(*joint);
+  for (const auto& joint : path)
+    if (moves(*joint)) model.couplings.push_back(table.couple(*joint));
+  if (model.joint_names.empty())
+    throw InvalidArgument("urdf: no moving joint between '" + model.base + "' and '" + model.tip + "'.");
+  table.finish();
+}
+
+// Inertia plays no part in kinematics, but a simulator that loads the same robot will stumble over it.
+void warn_of_inertia(const urdf::Link& link, std::vector<std::string>& warnings) {
+  if (!link.inertial) return;
+  const urdf::Inertial& body = *link.inertial;
+  Eigen::Matrix3d inertia;
+  inertia << body.ixx, body.ixy, body.ixz, body.ixy, body.iyy, body.iyz, body.ixz, body.iyz, body.izz;
+  const Eigen::Vector3d moments = inertia.selfadjointView<Eigen::Lower>().eigenvalues();
+  const double tolerance = 1e-9 * moments.cwiseAbs().maxCoeff();
+  const bool possible =
+      body.mass > 0.0 && moments[0] >= -tolerance && moments[2] <= moments[0] + moments[1] + tolerance;
+  if (!possible)
+    warnings.push_back("link '" + link.name +
+                       "': no body has this mass and inertia; kinematics ignore them, a simulator may not.");
+}
+
+}  // namespace
+
+ChainModel read_urdf(const std::string& text, const std::string& base, const std::string& tip) {
+  const urdf::ModelInterfaceSharedPtr urdf = parse(text);
+  ChainModel model;
+  model.name = urdf->getName();
+  model.base = base.empty() ? urdf->getRoot()->name : base;
+  const urdf::LinkConstSharedPtr base_link = find_link(*urdf, model.base, "base");
+  model.tip = tip.empty() ? only_leaf(*base_link) : tip;
+  find_link(*urdf, model.tip, "tip");
+  const Path path = path_between(*urdf, model.base, model.tip);
+  read_joints(path, model);
+  model.chain = chain_of(path);
+  for (const auto& joint : path) warn_of_inertia(*urdf->getLink(joint->child_link_name), model.warnings);
+  model.urdf = text;
+  return model;
+}
+
+}  // namespace dmp::detail

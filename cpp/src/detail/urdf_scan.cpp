@@ -1,0 +1,108 @@
+#include "urdf_scan.hpp"
+
+#include <dmp/error.hpp>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace dmp::detail {
+namespace {
+
+constexpr int deepest_nesting = 100;
+constexpr std::size_t largest_text = 64u << 20;
+
+struct Parent {
+  std::string joint, link;
+};
+using Parents = std::map<std::string, Parent>;  // child link -> the joint above it
+
+std::string attribute(const std::string& tag, const std::string& name) {
+  for (const char quote : {'"', '\''}) {
+    const std::size_t at = tag.find(" " + name + "=" + quote);
+    if (at == std::string::npos) continue;
+    const std::size_t begin = at + name.size() + 3;
+    return tag.substr(begin, tag.find(quote, begin) - begin);
+  }
+  return "";
+}
+
+// Reads tag by tag and keeps what the graph needs. It need not understand all of XML: urdfdom judges the
+// syntax.
+class Scanner {
+ public:
+  void read(const std::string& text) {
+    std::size_t at = 0;
+    while ((at = text.find('<', at)) != std::string::npos) {
+      const bool comment = text.compare(at, 4, "<!--") == 0;
+      const std::size_t end = text.find(comment ? "-->" : ">", at);
+      if (end == std::string::npos) return;
+      if (!comment) take(text.substr(at, end - at + 1));
+      at = end + 1;
+    }
+  }
+  const Parents& parents() const { return parents_; }
+
+ private:
+  void take(const std::string& tag) {
+    if (tag[1] == '?' || tag[1] == '!') return;
+    if (tag[1] == '/') {
+      --depth_;
+    } else {
+      if (tag[tag.size() - 2] != '/') ++depth_;
+      open(tag);
+    }
+    if (depth_ > deepest_nesting)
+      throw InvalidArgument("urdf: elements nested deeper than " + std::to_string(deepest_nesting) + ".");
+  }
+
+  void open(const std::string& tag) {
+    const std::string kind = tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1);
+    if (kind == "joint") {
+      above_ = {attribute(tag, "name"), ""};
+      child_.clear();
+    }
+    if (kind == "parent") above_.link = attribute(tag, "link");
+    if (kind == "child") child_ = attribute(tag, "link");
+    if (!child_.empty() && !above_.link.empty()) add();
+  }
+
+  void add() {
+    const auto [at, is_new] = parents_.emplace(child_, above_);
+    if (!is_new)
+      throw InvalidArgument("urdf: link '" + child_ + "' is the child of two joints, '" + at->second.joint +
+                            "' and '" + above_.joint + "'; expected a tree.");
+    child_.clear();
+    above_.link.clear();
+  }
+
+  int depth_ = 0;
+  Parent above_;
+  std::string child_;
+  Parents parents_;
+};
+
+void refuse_cycles(const Parents& parents) {
+  std::set<std::string> cleared;  // links known to hang from a root
+  for (const auto& entry : parents) {
+    std::vector<std::string> walked;
+    for (auto at = parents.find(entry.first); at != parents.end() && cleared.count(at->first) == 0;
+         at = parents.find(at->second.link)) {
+      if (walked.size() > parents.size())
+        throw InvalidArgument("urdf: joint '" + at->second.joint + "': its child link '" + at->first +
+                              "' is also above it (a cycle); expected a tree.");
+      walked.push_back(at->first);
+    }
+    cleared.insert(walked.begin(), walked.end());
+  }
+}
+
+}  // namespace
+
+void scan_urdf(const std::string& text) {
+  if (text.size() > largest_text) throw InvalidArgument("urdf: larger than 64 MiB.");
+  Scanner scanner;
+  scanner.read(text);
+  refuse_cycles(scanner.parents());
+}
+
+}  // namespace dmp::detail
