@@ -14,18 +14,7 @@ from dmpcpp._core import __version__ as __version__
 from dmpcpp._core import so3 as so3
 
 _MODULES = frozenset(
-    {
-        "arms",
-        "errors",
-        "export",
-        "imitation",
-        "metrics",
-        "motion",
-        "plot",
-        "recordings",
-        "retarget",
-        "simulation",
-    }
+    {"arms", "errors", "export", "imitation", "metrics", "motion", "plot", "recordings", "retarget", "simulation"}
 )
 
 

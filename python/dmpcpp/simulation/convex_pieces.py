@@ -1,8 +1,9 @@
 """Collision meshes as a few convex pieces.
 
-Engines take the convex hull of a mesh. Where a link is hollow that closes the hollow: the wrist of a KUKA iiwa
-then touches its forearm over a sixth of its range. Cutting a mesh where that removes the most empty space keeps
-the shapes convex, and the pieces together still hold every triangle: contacts come too early, never too late.
+Engines take the convex hull of a mesh. Where a link is hollow that closes the hollow: the wrist of a KUKA
+iiwa then touches its forearm over a sixth of its range. Cutting a mesh where that removes the most empty
+space keeps the shapes convex, and the pieces together still hold every triangle: contacts come too early,
+never too late.
 """
 
 from __future__ import annotations
