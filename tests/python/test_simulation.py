@@ -411,6 +411,11 @@ def test_every_check_is_json_and_can_be_asked_for_by_name(panda_log):
         panda_log.verdict["torque"]
 
 
+def test_a_check_made_of_numpy_numbers_is_json_too():
+    check = simulation.Check("a", np.bool_(True), np.float64(1.5), np.int64(2), "1")
+    assert json.loads(json.dumps(check.to_dict()))["ok"] is True
+
+
 def test_tighter_tolerances_fail_what_the_defaults_pass(panda_log):
     strict = simulation.judge(panda_log, simulation.Tolerances(velocity_ratio=0.1))
     assert [check.name for check in strict.failed] == ["velocity_ratio"]
