@@ -229,6 +229,11 @@ def _errors(
         axes.plot(time, values * scale, label=curve.label, **stroke)
     if limit is not None:
         axes.axhline(limit * scale, color=_INK, linewidth=0.8)
+    if any((getattr(curve, field) < _FLOOR_OF_LOG).any() for curve in curves):
+        note = f"the lowest line is {_FLOOR_OF_LOG * scale:.0e} or less"
+        axes.text(
+            0.995, 0.02, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=_FAINT
+        )
     axes.set_yscale("log")
     axes.set_ylabel(label, color=_INK)
     axes.grid(color=_GRID, linewidth=0.6)

@@ -45,16 +45,16 @@ def test_the_principal_moments_hold_the_triangle_inequality(moments, physical):
     assert is_physical(np.diag(np.array(moments, dtype=float))) is physical
 
 
-def test_the_two_bad_inertias_of_the_xarm6_are_found_and_only_those():
+def test_the_two_bad_inertias_of_the_xarm6_are_found_and_only_those(tmp_path):
     pytest.importorskip("pybullet_data")
-    assert describe(arms.find("xarm6")).repaired_links == ("link2", "link3")
-    assert describe(arms.find("panda")).repaired_links == ()
-    assert describe(arms.find("iiwa")).repaired_links == ()
+    assert describe(arms.find("xarm6"), tmp_path).repaired_links == ("link2", "link3")
+    assert describe(arms.find("panda"), tmp_path).repaired_links == ()
+    assert describe(arms.find("iiwa"), tmp_path).repaired_links == ()
 
 
-def test_links_joined_rigidly_or_by_one_joint_are_neighbours():
+def test_links_joined_rigidly_or_by_one_joint_are_neighbours(tmp_path):
     pytest.importorskip("pybullet_data")
-    neighbours = describe(arms.find("panda")).neighbours
+    neighbours = describe(arms.find("panda"), tmp_path).neighbours
     assert frozenset(("panda_link7", "panda_hand")) in neighbours  # rigid, over the bare link8
     assert frozenset(("panda_link6", "panda_hand")) in neighbours  # on either side of joint 7
     assert frozenset(("panda_link5", "panda_hand")) not in neighbours
@@ -70,18 +70,18 @@ def test_a_mesh_is_found_from_the_folder_of_the_urdf(tmp_path, mesh):
     target.write_text("v 0 0 0\n")
     path = tmp_path / "some_package" / "urdf" / "r.urdf"
     path.write_text(URDF.format(inertia=SOUND, mesh=mesh))
-    assert str(target) in describe(Arm.from_urdf_file(str(path))).text
+    assert str(target) in describe(Arm.from_urdf_file(str(path)), tmp_path).text
 
 
 def test_a_mesh_that_is_nowhere_is_named(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(URDF.format(inertia=SOUND, mesh="package://gone/tool.obj"))
     with pytest.raises(InvalidArgument, match=r"link 'tool': no mesh 'package://gone/tool\.obj'"):
-        describe(Arm.from_urdf_file(str(path)))
+        describe(Arm.from_urdf_file(str(path)), tmp_path)
 
 
 def test_an_inertia_that_is_not_numbers_is_named(tmp_path):
     text = URDF.format(inertia=SOUND.replace('izz="1"', 'izz="nan"'), mesh="x.obj")
     text = text.replace('<collision><geometry><mesh filename="x.obj"/></geometry></collision>', "")
     with pytest.raises(InvalidArgument, match="link 'tool'"):
-        describe(Arm.from_urdf(text))
+        describe(Arm.from_urdf(text), tmp_path)

@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 
 pytest.importorskip("pybullet", reason="the extra `sim`")
 
-from dmpcpp import Arm, arms, simulation
+from dmpcpp import Arm, InverseKinematics, arms, duration_factor, simulation, stretched
 from dmpcpp.errors import InvalidArgument, MissingDependency
 from dmpcpp.metrics import position_errors
 from dmpcpp.simulation import reference
@@ -120,6 +120,26 @@ def test_two_worlds_at_once_do_not_touch_each_other(panda):
         other.step()
         assert np.array_equal(one.state()[0], HOME["panda"])
         assert not np.array_equal(other.state()[0], there)
+
+
+@pytest.mark.parametrize("name", ["panda", "iiwa"])
+def test_a_circle_goes_through_inverse_kinematics_and_both_time_scalings_to_a_sound_execution(name):
+    arm = arms.find(name)
+    time = np.linspace(0.0, 1.5, 301)
+    turn = 2 * np.pi * (10 * (time / 1.5) ** 3 - 15 * (time / 1.5) ** 4 + 6 * (time / 1.5) ** 5)
+    poses = np.tile(arm.forward_kinematics(np.array(HOME[name])), (301, 1, 1))
+    poses[:, :3, 3] += 0.08 * np.column_stack([np.cos(turn) - 1.0, np.sin(turn), 0.5 * np.sin(turn)])
+    joints = InverseKinematics(arm).follow(poses, times=time)
+    joints = stretched(
+        joints, duration_factor(joints, 0.95 * arm.velocity_limit, arms.acceleration_limit(arm))
+    )
+    joints = stretched(joints, max(1.0, simulation.torque_duration_factor(arm, joints)))
+    log = simulation.execute(arm, joints)
+    assert log.verdict.ok, log.verdict.failed
+    assert log.verdict["ik_position_residual"].value <= 1e-5
+    at_samples = np.searchsorted(log.time, joints.time - 1e-9)
+    inside = np.flatnonzero(np.abs(log.time[at_samples] - joints.time) < 1e-9)
+    assert position_errors(poses[inside], log.tool_pose[at_samples[inside]]).max() <= 2e-5
 
 
 # ---- closed forms -------------------------------------------------------------------------------------
@@ -325,6 +345,13 @@ def test_a_hand_folded_onto_the_forearm_is_caught_as_self_collision(panda):
     assert check.time > 1.0
 
 
+def test_the_iiwas_wrist_turns_over_its_whole_range_without_touching_the_forearm():
+    arm = arms.find("iiwa")
+    wrist = np.tile(HOME["iiwa"], (41, 1))
+    wrist[:, 5] = np.linspace(arm.lower[5], arm.upper[5], 41)
+    assert simulation.contacts_along(arm, wrist) == []
+
+
 def test_a_hand_on_the_floor_is_caught(panda):
     log = simulation.execute(panda, reach(panda, [0.0, 0.9, 0.0, -1.75, 0.0, 2.55, 0.8], 2.0))
     assert "floor_contact" in failed(log)
@@ -384,12 +411,17 @@ def test_every_check_is_json_and_can_be_asked_for_by_name(panda_log):
         panda_log.verdict["torque"]
 
 
+def test_a_check_made_of_numpy_numbers_is_json_too():
+    check = simulation.Check("a", np.bool_(True), np.float64(1.5), np.int64(2), "1")
+    assert json.loads(json.dumps(check.to_dict()))["ok"] is True
+
+
 def test_tighter_tolerances_fail_what_the_defaults_pass(panda_log):
     strict = simulation.judge(panda_log, simulation.Tolerances(velocity_ratio=0.1))
     assert [check.name for check in strict.failed] == ["velocity_ratio"]
 
 
-def stretched(joints, factor):
+def slower(joints, factor):
     return replace(
         joints,
         time=joints.time * factor,
@@ -402,10 +434,10 @@ def test_a_motion_too_fast_for_the_motors_is_slowed_just_enough_by_the_torque_fa
     fast = reach(panda, np.add(HOME["panda"], [0.0, 0.5, 0.0, 0.5, 0.5, -0.5, 0.5]), 0.35)
     factor = simulation.torque_duration_factor(panda, fast, share=0.9)
     before = simulation.execute(panda, fast).verdict["torque_ratio"].value
-    after = simulation.execute(panda, stretched(fast, factor)).verdict["torque_ratio"].value
+    after = simulation.execute(panda, slower(fast, factor)).verdict["torque_ratio"].value
     assert before > 1.0 and factor > 1.0
     assert after == pytest.approx(0.9, abs=0.01)
-    assert simulation.torque_duration_factor(panda, stretched(fast, factor), share=0.9) == pytest.approx(1.0)
+    assert simulation.torque_duration_factor(panda, slower(fast, factor), share=0.9) == pytest.approx(1.0)
 
 
 def test_the_torque_factor_of_a_damped_pendulum_is_its_closed_form():

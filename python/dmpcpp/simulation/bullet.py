@@ -6,6 +6,7 @@ URDF_USE_INERTIA_FROM_FILE is set, every link is damped by 0.04, and every joint
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import sys
 import tempfile
@@ -49,8 +50,8 @@ class Bullet:
 
     Notes
     -----
-    Collision shapes are the convex hulls of the URDF's collision meshes: a contact can be reported up to a
-    hull's hollow too early, never too late.
+    Collision shapes are the URDF's collision meshes as a few convex pieces each (``convex_pieces``): a
+    contact can come a little early, never too late.
     """
 
     def __init__(
@@ -61,24 +62,24 @@ class Bullet:
             raise InvalidArgument(f"time_step: {time_step}, expected a positive number of seconds.")
         self.arm = arm
         self.time_step = float(time_step)
-        description = describe(arm, visuals=visuals)
-        self.repaired_links = description.repaired_links
         self._p = _pybullet()
         with quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
         self.name = f"PyBullet {importlib.metadata.version('pybullet')}"
         try:
-            self._set_up(description, floor)
+            self._set_up(floor, visuals)
         except BaseException:
             self.close()
             raise
 
-    def _set_up(self, description: RobotDescription, floor: float | None) -> None:
-        p, client = self._p, self._client
-        p.setGravity(0.0, 0.0, _GRAVITY, physicsClientId=client)
+    def _set_up(self, floor: float | None, visuals: bool) -> None:
         options = {"numSolverIterations": 100, "deterministicOverlappingPairs": 1}
-        p.setPhysicsEngineParameter(self.time_step, **options, physicsClientId=client)
-        self._body = self._load(description.text)
+        self._p.setPhysicsEngineParameter(self.time_step, **options, physicsClientId=self._client)
+        self._p.setGravity(0.0, 0.0, _GRAVITY, physicsClientId=self._client)
+        with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
+            description = describe(self.arm, Path(folder), visuals=visuals)
+            self._body = self._load(description.text, Path(folder, "arm.urdf"))
+        self.repaired_links = description.repaired_links
         self._find_joints()
         self._switch_off_damping_and_motors()
         self._ignore_overlaps(description)
@@ -178,19 +179,15 @@ class Bullet:
 
     # ---- setting up --------------------------------------------------------------------------------------
 
-    def _load(self, urdf: str) -> int:
+    def _load(self, urdf: str, path: Path) -> int:
         p = self._p
-        flags = p.URDF_USE_INERTIA_FROM_FILE | p.URDF_USE_SELF_COLLISION
-        with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
-            path = Path(folder, "arm.urdf")
-            path.write_text(urdf, encoding="utf-8")
-            with quiet() as heard:
-                try:
-                    return int(
-                        p.loadURDF(str(path), useFixedBase=True, flags=flags, physicsClientId=self._client)
-                    )
-                except p.error as error:
-                    reason = " ".join(heard().split()) or str(error)
+        path.write_text(urdf, encoding="utf-8")
+        options = {"useFixedBase": True, "flags": p.URDF_USE_INERTIA_FROM_FILE | p.URDF_USE_SELF_COLLISION}
+        with quiet() as heard:
+            try:
+                return int(p.loadURDF(str(path), **options, physicsClientId=self._client))
+            except p.error as error:
+                reason = " ".join(heard().split()) or str(error)
         raise InvalidArgument(f"arm.urdf: PyBullet can not load '{self.arm.name}': {reason}")
 
     def _find_joints(self) -> None:
@@ -294,10 +291,9 @@ class Bullet:
 def _pybullet() -> ModuleType:
     try:
         with quiet():
-            import pybullet
+            return importlib.import_module("pybullet")
     except ImportError:
         raise MissingDependency(
             f"pybullet is not installed for this Python {sys.version_info.major}.{sys.version_info.minor}. "
             'Install the extra: pip install "dmpcpp[sim]". Its newest wheels are for Python 3.11.'
         ) from None
-    return pybullet

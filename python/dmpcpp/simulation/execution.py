@@ -81,7 +81,7 @@ def execute(
     reference = sample(arm, joints, rate, settle=settle, from_rest=from_rest, consistent=consistent)
     with simulator(arm, 1.0 / rate) as engine:
         recorder = _Recorder(len(reference.time), arm.joint_count)
-        drive = _computed_torque(kp, kd) if mode == "computed_torque" else _servo
+        drive = _computed_torque(kp, kd, arm.effort_limit) if mode == "computed_torque" else _servo
         done = _run(engine, reference, drive, recorder, progress)
         name, repaired = engine.name, engine.repaired_links
     return ExecutionLog(
@@ -133,14 +133,13 @@ def _run(
     return total
 
 
-def _computed_torque(kp: float, kd: float) -> Drive:
+def _computed_torque(kp: float, kd: float, limit: NDArray[np.float64]) -> Drive:
     def drive(
         engine: Simulator, reference: Reference, k: int
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         position, velocity = engine.state()
         acceleration = reference.acceleration[k] + kd * (reference.velocity[k] - velocity)
         demand = engine.inverse_dynamics(acceleration + kp * (reference.position[k] - position))
-        limit = engine.arm.effort_limit
         torque = np.minimum(np.maximum(demand, -limit), limit)
         engine.apply_torque(torque)
         engine.step()

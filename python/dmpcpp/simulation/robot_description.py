@@ -1,10 +1,11 @@
-"""The URDF as a physics engine needs it: meshes by absolute path, and inertias that a rigid body can have.
+"""The URDF as a physics engine needs it: meshes found and convex, inertias that a rigid body can have.
 
 The same text goes to every engine, so that none repairs (or silently drops) anything in its own way.
 """
 
 from __future__ import annotations
 
+import copy
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from itertools import combinations, product
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.simulation.convex_pieces import convex_pieces
 
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -41,29 +43,33 @@ class RobotDescription:
     neighbours: frozenset[frozenset[str]]
 
 
-def describe(arm: Arm, *, visuals: bool = False) -> RobotDescription:
+def describe(arm: Arm, folder: Path, *, visuals: bool = False) -> RobotDescription:
     """Prepare ``arm.urdf`` for a physics engine.
 
     Parameters
     ----------
     arm : Arm
+    folder : Path
+        Where the convex pieces of the collision meshes are written; the engine needs them while it loads.
     visuals : bool
         Keep what is only drawn; without it loading is several times faster.
 
     Raises
     ------
     InvalidArgument
-        A collision mesh can not be found, or an inertia is not made of finite numbers.
+        A mesh can not be found, or an inertia is not made of finite numbers.
     """
     robot = ET.fromstring(arm.urdf)
-    if not visuals:
-        for link in robot.iter("link"):
+    links = robot.findall("link")
+    for link in links:
+        if not visuals:
             for visual in link.findall("visual"):
                 link.remove(visual)
-    for link in robot.iter("link"):
         for mesh in link.iter("mesh"):
             mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), arm.folder, link.get("name", ""))))
-    repaired = tuple(link.get("name", "") for link in robot.findall("link") if _repair_inertia(link))
+        for collision in link.findall("collision"):
+            _split_into_convex_pieces(link, collision, folder)
+    repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
     groups = _rigid_groups(robot)
     return RobotDescription(
         ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups)
@@ -99,6 +105,20 @@ def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _second_moment(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(0.5 * np.trace(inertia) * np.eye(3) - inertia)
+
+
+def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: Path) -> None:
+    mesh = collision.find("geometry/mesh")
+    pieces = convex_pieces(Path(mesh.get("filename", ""))) if mesh is not None else None
+    if pieces is None:
+        return
+    link.remove(collision)
+    for piece in pieces:
+        path = folder / f"piece{len(list(folder.iterdir()))}.obj"
+        path.write_text(piece, encoding="ascii")
+        part = copy.deepcopy(collision)
+        part.find("geometry/mesh").set("filename", str(path))  # type: ignore[union-attr]
+        link.append(part)
 
 
 def _repair_inertia(link: ET.Element) -> bool:

@@ -79,4 +79,4 @@ def _first_root(
         root = np.sqrt(b * b - 4.0 * a * c)
         q = -0.5 * (b + np.copysign(root, b))  # the two roots are q / a and c / q, without cancellation
         roots = np.stack([q / a, c / q])
-    return np.where(roots > 0.0, roots, np.inf).min(axis=0)
+    return np.asarray(np.where(roots > 0.0, roots, np.inf).min(axis=0))

@@ -46,10 +46,9 @@ class Check:
     detail: str = ""
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON: a value that is not finite becomes None."""
-        return {
-            k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()
-        }
+        """For JSON: numbers of Python's own kinds, None for one that is not finite."""
+        plain = {k: v.item() if isinstance(v, np.generic) else v for k, v in asdict(self).items()}
+        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in plain.items()}
 
 
 @dataclass(frozen=True)
