@@ -184,7 +184,7 @@ void bind_joint_trajectory(py::module_& m) {
       .def_readonly("report", &JointTrajectory::report);
 }
 
-void bind_options(py::module_& m) {
+void bind_ik_options(py::module_& m) {
   py::native_enum<IkBackend>(m, "IkBackend", "enum.Enum",
                              "Which KDL position solver makes the single descents.")
       .value("bounded_lm", IkBackend::bounded_lm)
@@ -302,7 +302,7 @@ void bind_kinematics(py::module_& m) {
   bind_arm(m);
   bind_results(m);
   bind_joint_trajectory(m);
-  bind_options(m);
+  bind_ik_options(m);
   bind_solver(m);
   m.def(
       "duration_factor",
