@@ -46,6 +46,9 @@ class Placement:
     centre : array_like (3,)
         m, the point of the recording's world that scaling leaves in place; `place` takes the middle of the
         box around the path.
+    start : array_like (n,), optional
+        Joints with which an arm holds the first pose of the motion so that it gets through all of it; hand
+        them to `InverseKinematics.follow(..., start=...)`. `place` sets them.
     note : str
         How the placement was found, for reports.
 
@@ -61,12 +64,15 @@ class Placement:
     tool_rotation: Array = field(default_factory=lambda: np.eye(3))
     up_axis: Axis = "z"
     centre: Array = field(default_factory=lambda: np.zeros(3))
+    start: Array | None = None
     note: str = ""
 
     def __post_init__(self) -> None:
         """Take the arrays over as read-only float64 and check everything."""
         for name, shape in (("position", (3,)), ("centre", (3,)), ("tool_rotation", (3, 3))):
             object.__setattr__(self, name, _owned(name, getattr(self, name), shape))
+        if self.start is not None:
+            object.__setattr__(self, "start", _owned("start", self.start, np.shape(self.start)))
         if not np.isfinite(self.yaw):
             raise InvalidArgument(f"yaw: {self.yaw}, expected an angle in rad.")
         if not 0.0 < self.scale < np.inf:
