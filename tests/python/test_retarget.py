@@ -61,9 +61,7 @@ def test_positions_scale_and_rotations_do_not(placement):
     placed_steps = np.linalg.norm(np.diff(placed[:, :3, 3], axis=0), axis=1)
     np.testing.assert_allclose(placed_steps, placement.scale * steps, atol=1e-12)
     turned = Rotation.from_matrix(placed[:, :3, :3])
-    np.testing.assert_allclose(
-        (turned[:-1].inv() * turned[1:]).magnitude(), motion.turn_angles(recording), atol=1e-7
-    )
+    np.testing.assert_allclose((turned[:-1].inv() * turned[1:]).magnitude(), motion.turn_angles(recording), atol=1e-7)
 
 
 @given(placement=placements)
@@ -175,7 +173,7 @@ def test_the_caller_has_the_last_word_on_the_joints(arm):
 
 def test_the_same_seed_finds_the_same_placement(arm):
     punch = recordings.clip("punch")
-    first, second = (place(punch, arm, seed=4, candidates=400) for _ in range(2))
+    first, second = (place(punch, arm, seed=4, candidates=200) for _ in range(2))
     np.testing.assert_array_equal(first.position, second.position)
     np.testing.assert_array_equal(first.tool_rotation, second.tool_rotation)
     assert (first.scale, first.yaw, first.note) == (second.scale, second.yaw, second.note)

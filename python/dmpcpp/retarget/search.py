@@ -136,9 +136,7 @@ class _Search:
         self.closest_share = 0.0
         self.most_carried = 0.0
 
-    def promising(
-        self, random: np.random.Generator, scale: tuple[float, float], count: int
-    ) -> list[Placement]:
+    def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the candidates of which every coarse pose can be solved, the largest first."""
         joints = _random_joints(self.arm, random, _CLOUD)
         reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
@@ -149,7 +147,7 @@ class _Search:
             share = self._share_near(placement, reached, near)
             if share > self.closest_share:
                 self.closest, self.closest_share = placement, share
-            if share == 1.0 and self._solves(placement):
+            if share == 1.0 and self._above_floor(placement) and self._solves(placement):
                 able.append(placement)
         return sorted(able, key=lambda placement: -placement.scale)
 
@@ -192,9 +190,7 @@ class _Search:
             self._start(self.closest)
         return f"the best one carries {100 * self.most_carried:.0f} % of it"
 
-    def _candidates(
-        self, random: np.random.Generator, scale: tuple[float, float], count: int
-    ) -> Iterator[Placement]:
+    def _candidates(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> Iterator[Placement]:
         """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
         middle = self.poses[self.coarse[0]]
         held = self.arm.forward_kinematics(_random_joints(self.arm, random, count))
@@ -210,10 +206,10 @@ class _Search:
             )
 
     def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
-        """Return the share of the coarse positions that the tip can take; below 1 if the motion dips too low."""
-        distance, _ = reached.query(placement.apply(self.poses[self.coarse])[:, :3, 3])
-        share = float(np.mean(distance < near))
-        return share if self._above_floor(placement) else 0.9 * share
+        """Return the share of the coarse positions that the tip can take, a little less if one is too low."""
+        position = placement.apply(self.poses[self.coarse])[:, :3, 3]
+        share = float(np.mean(reached.query(position)[0] < near))
+        return share if position[:, 2].min() >= self.floor else 0.9 * share
 
     def _above_floor(self, placement: Placement) -> bool:
         return bool(placement.apply(self.poses)[:, 2, 3].min() >= self.floor)
@@ -269,9 +265,7 @@ def _far_apart(recording: Recording, first: int, count: int) -> list[int]:
     return chosen
 
 
-def _changed(
-    placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]
-) -> Placement:
+def _changed(placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]) -> Placement:
     """Return a neighbour: up to about 5 cm, 10 deg and 10 % away for a step of 1."""
     turn = Rotation.from_rotvec(random.normal(0.0, 0.15 * step, 3)).as_matrix()
     return replace(
