@@ -127,9 +127,7 @@ def read_joints(path: str | PathLike[str]) -> JointSamples:
     return JointSamples(_times(values[:, 0]), position, velocity, acceleration, names)
 
 
-def write_plan(
-    path: str | PathLike[str], trajectory: PoseMotion, *, base: str = "base", tip: str = "tip"
-) -> None:
+def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str = "base", tip: str = "tip") -> None:
     """Write a pose trajectory as .npz with the arrays `time`, `pose`, `twist` and the texts `units`,
     `base`, `tip`.
 
@@ -169,9 +167,7 @@ def read_plan(path: str | PathLike[str]) -> Plan:
     arrays = read_arrays(path)
     missing = [name for name in ("time", "pose", "twist", "base", "tip") if name not in arrays]
     if missing:
-        raise InvalidArgument(
-            f"{path.name}: no array {missing[0]!r}; it holds: {', '.join(arrays) or 'none'}."
-        )
+        raise InvalidArgument(f"{path.name}: no array {missing[0]!r}; it holds: {', '.join(arrays) or 'none'}.")
     time = _times(arrays["time"])
     pose = _finite("pose", arrays["pose"], (len(time), 4, 4))
     twist = _finite("twist", arrays["twist"], (len(time), 6))

@@ -182,17 +182,13 @@ def low_pass(recording: Recording, cutoff: float, order: int = 2) -> Recording:
     """
     _positive("cutoff", cutoff)
     if cutoff >= recording.rate / 2:
-        raise InvalidArgument(
-            f"cutoff: {cutoff:g} Hz, expected less than half the rate of {recording.rate:.4g} Hz."
-        )
+        raise InvalidArgument(f"cutoff: {cutoff:g} Hz, expected less than half the rate of {recording.rate:.4g} Hz.")
     _check_even(recording)
     continuous(recording)
     sections = butter(order, cutoff, fs=recording.rate, output="sos")
     padding = 3 * (2 * len(sections) + 1)  # samples that sosfiltfilt reflects at either end
     if len(recording) <= padding:
-        raise InvalidArgument(
-            f"{len(recording)} samples, a filter of order {order} needs more than {padding}."
-        )
+        raise InvalidArgument(f"{len(recording)} samples, a filter of order {order} needs more than {padding}.")
     position = sosfiltfilt(sections, recording.position, axis=0, padlen=padding)
     quaternion = sosfiltfilt(sections, _quaternions(recording.rotation), axis=0, padlen=padding)
     rotation = Rotation.from_quat(quaternion)

@@ -66,9 +66,7 @@ def test_joint_names_with_commas_and_quotes_survive(tmp_path):
         ("time", 0, np.nan, r"time\[0\]: nan"),
     ],
 )
-def test_joints_that_no_robot_should_get_are_refused_and_leave_the_old_file(
-    tmp_path, what, index, value, message
-):
+def test_joints_that_no_robot_should_get_are_refused_and_leave_the_old_file(tmp_path, what, index, value, message):
     path = tmp_path / "joints.csv"
     export.write_joints(path, joints())
     before = path.read_bytes()

@@ -138,17 +138,13 @@ def test_an_unknown_body_is_refused_with_those_that_exist(tmp_path):
     assert recordings.bodies(path) == ("hand", "cup")
     with pytest.raises(InvalidArgument, match=r"no body 'foot' in the file. It holds: hand, cup"):
         recordings.load(path, body="foot")
-    with pytest.raises(
-        InvalidArgument, match=r"no body named and the file holds several. It holds: hand, cup"
-    ):
+    with pytest.raises(InvalidArgument, match=r"no body named and the file holds several. It holds: hand, cup"):
         recordings.load(path)
 
 
 def test_a_statement_that_the_format_does_not_take_is_refused(tmp_path):
     path = write_csv(tmp_path / "a.tum", rows(), [], " ")
-    with pytest.raises(
-        InvalidArgument, match="quat_order: the format 'tum' does not take it; it takes: unit"
-    ):
+    with pytest.raises(InvalidArgument, match="quat_order: the format 'tum' does not take it; it takes: unit"):
         recordings.load(path, quat_order="wxyz")
 
 
@@ -211,9 +207,7 @@ def humanoid(clips):
 
     def pose_of(frame):
         xyzw = lambda q: np.roll(q / np.linalg.norm(q), -1).tolist()  # noqa: E731
-        pybullet.resetBasePositionAndOrientation(
-            figure, frame[1:4].tolist(), xyzw(frame[4:8]), physicsClientId=client
-        )
+        pybullet.resetBasePositionAndOrientation(figure, frame[1:4].tolist(), xyzw(frame[4:8]), physicsClientId=client)
         turns = {"chest": 8, "neck": 12, "right_hip": 16, "right_ankle": 21, "right_shoulder": 25}
         turns |= {"left_hip": 30, "left_ankle": 35, "left_shoulder": 39}
         for name, first in turns.items():
@@ -222,9 +216,7 @@ def humanoid(clips):
             )
         for name, column in {"right_knee": 20, "right_elbow": 29, "left_knee": 34, "left_elbow": 43}.items():
             pybullet.resetJointState(figure, links[name], frame[column], physicsClientId=client)
-        states = pybullet.getLinkStates(
-            figure, range(15), computeForwardKinematics=True, physicsClientId=client
-        )
+        states = pybullet.getLinkStates(figure, range(15), computeForwardKinematics=True, physicsClientId=client)
         return {name: states[k][4:6] for name, k in links.items()}
 
     yield pose_of
@@ -311,9 +303,7 @@ def test_damaged_frames_are_named(clips, tmp_path):
         recordings.load(path, "right_hand")
 
 
-@pytest.mark.parametrize(
-    "text", ["{", "[" * 100000, '{"Frames": 1}', "{" + '"a":{' * 50000, '{"Frames": []}']
-)
+@pytest.mark.parametrize("text", ["{", "[" * 100000, '{"Frames": 1}', "{" + '"a":{' * 50000, '{"Frames": []}'])
 def test_json_that_is_no_clip_is_refused(tmp_path, text):
     path = tmp_path / "clip.json"
     path.write_text(text)
@@ -382,9 +372,7 @@ def test_a_large_range_is_accepted_when_the_caller_insists(tmp_path):
 def test_an_unknown_unit_is_refused(tmp_path):
     path = write_csv(tmp_path / "a.tum", rows(), [], " ")
     for unit in ("furlong", -1.0, True, float("nan")):
-        with pytest.raises(
-            InvalidArgument, match=r"unit: .*, expected one of m, cm, mm or a positive factor"
-        ):
+        with pytest.raises(InvalidArgument, match=r"unit: .*, expected one of m, cm, mm or a positive factor"):
             recordings.load(path, unit=unit)
 
 
@@ -486,9 +474,7 @@ def test_text_that_is_not_utf_8_or_binary_is_refused_with_its_line(tmp_path):
 
 def test_hand_guided_unscrewing_reads_by_column_number(recorded):
     columns = {"time": 0, "x": 1, "y": 2, "z": 3, "qw": 10, "qx": 11, "qy": 12, "qz": 13}
-    recording = recordings.load(
-        recorded / "gsutanto_unscrewing" / "03.txt", format="table", columns=columns, unit="m"
-    )
+    recording = recordings.load(recorded / "gsutanto_unscrewing" / "03.txt", format="table", columns=columns, unit="m")
     assert recording.rate == pytest.approx(300.0, rel=1e-3)
     orientation = Rotation.from_matrix(recording.rotation)
     turned = (orientation[0].inv() * orientation).magnitude().max()
@@ -539,9 +525,7 @@ def test_transposed_or_reflected_matrices_are_refused_with_their_index(tmp_path)
     mirrored = poses()
     mirrored[5, :3, :3] *= -1.0
     np.savez(tmp_path / "a.npz", time=TIMES, pose=mirrored)
-    with pytest.raises(
-        InvalidArgument, match=r"poses\[5\]: det\(R\) = -1\.000, expected \+1 \(a reflection\)"
-    ):
+    with pytest.raises(InvalidArgument, match=r"poses\[5\]: det\(R\) = -1\.000, expected \+1 \(a reflection\)"):
         recordings.load(tmp_path / "a.npz")
 
 
@@ -551,9 +535,7 @@ def test_nearly_orthonormal_matrices_become_the_nearest_rotation(tmp_path):
     np.savez(tmp_path / "a.npz", time=TIMES, pose=sheared)
     recording = recordings.load(tmp_path / "a.npz")
     assert_same_motion(recording)
-    assert any(
-        step.startswith("warning: poses: renormalised, off by at most 0.002") for step in recording.history
-    )
+    assert any(step.startswith("warning: poses: renormalised, off by at most 0.002") for step in recording.history)
     sheared[4, :3, :3] *= 1.2
     np.savez(tmp_path / "a.npz", time=TIMES, pose=sheared)
     with pytest.raises(InvalidArgument, match=r"poses\[4\]: singular value = 1\.2"):
@@ -564,9 +546,7 @@ def test_hand_guided_pouring_reads_by_index_in_centimetres(recorded):
     path = recorded / "robotasks_clfd" / "pouring.npy"
     stated = {"rate": 100.0, "quat_order": "wxyz", "unit": "cm"}
     ends = [recordings.load(path, index=k, **stated).position[-1] for k in range(9)]
-    np.testing.assert_allclose(
-        ends, np.tile(ends[0], (9, 1)), atol=1e-9
-    )  # they were shifted to a common point
+    np.testing.assert_allclose(ends, np.tile(ends[0], (9, 1)), atol=1e-9)  # they were shifted to a common point
     assert np.linalg.norm(ends[0]) < 1.5
     for index in (None, 9, -1, "a"):
         with pytest.raises(InvalidArgument, match=r"expected 0 to 8: the array .* holds 9 demonstrations"):

@@ -29,9 +29,7 @@ def clip() -> bytes:
 
 def rows() -> np.ndarray:
     time = np.arange(FRAMES) / 30
-    return np.column_stack(
-        [time, np.sin(time), np.cos(time), time, np.tile([0.0, 0.0, 0.6, 0.8], (FRAMES, 1))]
-    )
+    return np.column_stack([time, np.sin(time), np.cos(time), time, np.tile([0.0, 0.0, 0.6, 0.8], (FRAMES, 1))])
 
 
 def tum() -> bytes:

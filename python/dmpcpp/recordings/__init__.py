@@ -45,9 +45,7 @@ def bodies(path: str | PathLike[str], format: str | None = None, **stated: objec
     return _call(reader, reader.bodies, path, stated)
 
 
-def load(
-    path: str | PathLike[str], body: str | None = None, format: str | None = None, **stated: object
-) -> Recording:
+def load(path: str | PathLike[str], body: str | None = None, format: str | None = None, **stated: object) -> Recording:
     """Read one body's motion from a file.
 
     Parameters

@@ -67,9 +67,7 @@ def read(
     if index is not None:
         notes = [f"demonstration {index} of the file", *notes]
     stated = Stated(unit=unit, time_unit=time_unit, up_axis=up_axis)
-    return stated.recording(
-        time=time, position=position, rotation=rotation, body=body, source=path.name, notes=notes
-    )
+    return stated.recording(time=time, position=position, rotation=rotation, body=body, source=path.name, notes=notes)
 
 
 def _poses(arrays: dict[str, Array]) -> Array:
@@ -79,8 +77,7 @@ def _poses(arrays: dict[str, Array]) -> Array:
     if len(fitting) != 1:
         held = ", ".join(f"{name} {a.shape}" for name, a in arrays.items()) or "nothing"
         raise InvalidArgument(
-            "expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8). "
-            f"The file holds: {held}."
+            f"expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8). The file holds: {held}."
         )
     return arrays[fitting[0]]
 
@@ -125,9 +122,7 @@ def _check_bottom_row(poses: Array) -> None:
     wrong = ~(np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1) <= 1e-6)
     if wrong.any():
         k = int(np.argmax(wrong))
-        raise InvalidArgument(
-            f"poses[{k}]: last row {poses[k, 3]}, expected [0 0 0 1]. Are the matrices transposed?"
-        )
+        raise InvalidArgument(f"poses[{k}]: last row {poses[k, 3]}, expected [0 0 0 1]. Are the matrices transposed?")
 
 
 def _times(arrays: dict[str, Array], count: int, rate: float | None) -> Array:

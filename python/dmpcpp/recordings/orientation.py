@@ -20,9 +20,7 @@ REFUSE_ABOVE = 0.1
 _ROUNDING = 1e-9  # below this nothing is worth a word
 
 
-def from_quaternions(
-    quaternions: Array, order: QuatOrder, name: str = "quaternion"
-) -> tuple[Array, list[str]]:
+def from_quaternions(quaternions: Array, order: QuatOrder, name: str = "quaternion") -> tuple[Array, list[str]]:
     """Turn quaternions into rotation matrices.
 
     Parameters
@@ -101,17 +99,13 @@ def sign_flips(quaternions: Array) -> np.ndarray:
 def _check_finite(name: str, array: Array) -> None:
     finite = np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
     if not finite.all():
-        raise InvalidArgument(
-            f"{name}[{int(np.argmin(finite))}]: not finite. Cut the sample out or fill the gap."
-        )
+        raise InvalidArgument(f"{name}[{int(np.argmin(finite))}]: not finite. Cut the sample out or fill the gap.")
 
 
 def _refuse(name: str, what: str, value: Array, off: Array, advice: str) -> None:
     if (off > REFUSE_ABOVE).any():
         k = int(np.argmax(off > REFUSE_ABOVE))
-        raise InvalidArgument(
-            f"{name}[{k}]: {what} = {value[k]:.4g}, expected 1 within {REFUSE_ABOVE:g}. {advice}"
-        )
+        raise InvalidArgument(f"{name}[{k}]: {what} = {value[k]:.4g}, expected 1 within {REFUSE_ABOVE:g}. {advice}")
 
 
 def _renormalised(name: str, off: Array) -> list[str]:

@@ -118,9 +118,7 @@ def _check_shapes(time: Array, position: Array, rotation: Array) -> None:
     for name, array, tail in (("position", position, (3,)), ("rotation", rotation, (3, 3))):
         expected = (len(time), *tail)
         if array.shape != expected:
-            raise InvalidArgument(
-                f"{name}: shape {array.shape}, expected {expected} as there are {len(time)} times."
-            )
+            raise InvalidArgument(f"{name}: shape {array.shape}, expected {expected} as there are {len(time)} times.")
 
 
 def _check_finite(name: str, array: Array) -> None:

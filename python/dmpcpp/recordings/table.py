@@ -136,9 +136,7 @@ def _named(rows: list[tuple[int, list[str]]], header: list[str], columns: Column
         )
     times = [column for name, column in places.items() if name.lower() in _TIME_NAMES]
     if len(times) > 1:
-        raise InvalidArgument(
-            f"{len(times)} columns of time in the header {_shown(header)}. State the columns."
-        )
+        raise InvalidArgument(f"{len(times)} columns of time in the header {_shown(header)}. State the columns.")
     return _Table(rows, header, found, times[0] if times else None)
 
 
@@ -158,9 +156,7 @@ def _stated_pose(columns: Columns, places: Mapping[str, int]) -> dict[str, int]:
     unknown = set(columns) - {"time", *_POSE}
     missing = [what for what in _POSE if what not in columns]
     if unknown or missing:
-        wrong = (
-            f"unknown {', '.join(map(repr, sorted(unknown)))}" if unknown else f"missing {', '.join(missing)}"
-        )
+        wrong = f"unknown {', '.join(map(repr, sorted(unknown)))}" if unknown else f"missing {', '.join(missing)}"
         raise InvalidArgument(f"columns: {wrong}; expected time, {', '.join(_POSE)}.")
     return {what: _place(columns[what], places) for what in _POSE}
 

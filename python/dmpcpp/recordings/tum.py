@@ -28,9 +28,7 @@ def bodies(path: Path) -> tuple[str, ...]:
     return (_BODY,)
 
 
-def read(
-    path: Path, body: str | None, *, unit: str | float | None = None, up_axis: Axis | None = None
-) -> Recording:
+def read(path: Path, body: str | None, *, unit: str | float | None = None, up_axis: Axis | None = None) -> Recording:
     """Return the trajectory.
 
     Parameters

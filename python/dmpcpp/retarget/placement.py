@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
+from dmpcpp import motion
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Axis, Recording
 
@@ -46,6 +47,9 @@ class Placement:
     centre : array_like (3,)
         m, the point of the recording's world that scaling leaves in place; `place` takes the middle of the
         box around the path.
+    start : array_like (n,), optional
+        Joints with which an arm holds the first pose of the motion so that it gets through all of it; hand
+        them to `InverseKinematics.follow(..., start=...)`. `place` sets them.
     note : str
         How the placement was found, for reports.
 
@@ -61,12 +65,15 @@ class Placement:
     tool_rotation: Array = field(default_factory=lambda: np.eye(3))
     up_axis: Axis = "z"
     centre: Array = field(default_factory=lambda: np.zeros(3))
+    start: Array | None = None
     note: str = ""
 
     def __post_init__(self) -> None:
         """Take the arrays over as read-only float64 and check everything."""
         for name, shape in (("position", (3,)), ("centre", (3,)), ("tool_rotation", (3, 3))):
             object.__setattr__(self, name, _owned(name, getattr(self, name), shape))
+        if self.start is not None:
+            object.__setattr__(self, "start", _owned("start", self.start, np.shape(self.start)))
         if not np.isfinite(self.yaw):
             raise InvalidArgument(f"yaw: {self.yaw}, expected an angle in rad.")
         if not 0.0 < self.scale < np.inf:
@@ -80,8 +87,8 @@ class Placement:
     @property
     def rotation(self) -> Array:
         """Return A (3, 3): recording's world -> robot's base."""
-        turned: Array = Rotation.from_euler("z", self.yaw).as_matrix() @ _Z_UP[self.up_axis]
-        return turned
+        c, s = np.cos(self.yaw), np.sin(self.yaw)
+        return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ _Z_UP[self.up_axis]
 
     def apply(self, poses: ArrayLike) -> Array:
         """Carry poses (T, 4, 4) or one pose (4, 4) of the recording's world over to the robot's base frame.
@@ -95,17 +102,18 @@ class Placement:
         if poses.ndim not in (2, 3) or poses.shape[-2:] != (4, 4):
             raise InvalidArgument(f"poses: shape {poses.shape}, expected (T, 4, 4) or (4, 4).")
         placed = np.array(poses)
-        placed[..., :3, :3] = self.rotation @ poses[..., :3, :3] @ self.tool_rotation
-        placed[..., :3, 3] = self._points(poses[..., :3, 3])
+        rotation = self.rotation
+        placed[..., :3, :3] = rotation @ poses[..., :3, :3] @ self.tool_rotation
+        placed[..., :3, 3] = self.position + self.scale * (poses[..., :3, 3] - self.centre) @ rotation.T
         return placed
 
     def apply_to(self, recording: Recording) -> Recording:
         """Carry a recording over; its history says how."""
-        turned = Rotation.from_matrix(self.rotation @ recording.rotation @ self.tool_rotation)
+        placed = self.apply(motion.poses(recording))
         return recording.with_(
             self.describe(),
-            position=self._points(recording.position),
-            rotation=turned.as_matrix(),  # rounding of the product taken out
+            position=placed[:, :3, 3],
+            rotation=Rotation.from_matrix(placed[:, :3, :3]).as_matrix(),  # rounding of the product taken out
             up_axis="z",
         )
 
@@ -119,9 +127,6 @@ class Placement:
             f"placed at ({x}, {y}, {z}) mm, yaw {np.degrees(self.yaw):.1f} deg, scale {self.scale:.3f}, "
             f"tool rotation vector ({turned}) deg, up axis {self.up_axis}{found}"
         )
-
-    def _points(self, points: Array) -> Array:
-        return self.position + self.scale * (points - self.centre) @ self.rotation.T
 
 
 def _owned(name: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:

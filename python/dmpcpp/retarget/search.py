@@ -3,8 +3,8 @@
 Of random placements only a few in a hundred carry a motion of a whole arm. So each candidate starts from a
 random configuration of the robot, which shall hold the middle pose of the motion; what the robot can not
 reach anyway is dropped by a look at the positions its tip can take; then single poses are solved, those far
-apart first; and only what is left is followed from the first sample to the last. The best of these is
-improved by small changes.
+apart first; and only what is left is followed from the first pose to the last. The best of these is
+improved by small changes, each judged by one pass along the path from the joints at its first pose.
 """
 
 from __future__ import annotations
@@ -26,11 +26,10 @@ __all__ = ["place"]
 
 _CLOUD = 20_000  # random configurations whose tip positions tell where the arm reaches
 _COARSE = 24  # poses that stand for the motion in the first tests
-_FOLLOWED = 150  # candidates that are followed sample by sample at most
+_FOLLOWED = 150  # candidates that are followed from end to end at most
 _ENOUGH = 8  # of them carried; no further ones are followed
-_IMPROVEMENTS = 60  # small changes tried on the best one
-_CONFIRMED = 3  # of the worthiest that are followed once more, with the default effort
-_QUICK = {"starts": 8, "anchors": 3}  # effort on a path before that
+_EFFORT = {"starts": 8, "anchors": 3}  # of the search for joints along one candidate's path
+_IMPROVEMENTS = 300  # small changes tried on the best one
 _STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
 _STEP_ANGLE = 0.1  # rad, likewise
 _FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
@@ -42,7 +41,7 @@ def place(
     seed: int = 0,
     *,
     scale: tuple[float, float] = (0.25, 1.0),
-    floor: float = 0.05,
+    floor: float = 0.15,
     candidates: int = 3000,
     accept: Callable[[JointTrajectory], bool] | None = None,
 ) -> Placement:
@@ -60,7 +59,7 @@ def place(
         Smallest and largest scale of positions. Larger ones are preferred, as far as the joints keep away
         from their limits and need not be slowed down out of proportion.
     floor : float
-        m, the lowest height of the tip above the arm's base.
+        m, the lowest height of the tip above the base; leave room for what the tip carries.
     candidates : int
         How many random placements are tried.
     accept : JointTrajectory -> bool, optional
@@ -84,9 +83,8 @@ def place(
         raise InvalidArgument(f"candidates: {candidates}, expected at least 1.")
     search = _Search(recording, arm, floor, accept)
     random = np.random.default_rng(seed)
-    search.follow_all(search.promising(random, scale, candidates))
-    search.improve(random, scale)
-    best = search.confirmed()
+    found = search.carried(search.promising(random, scale, candidates))
+    best = search.improved(max(found, key=lambda carried: carried.worth), random, scale)
     note = f"carries all {len(recording)} samples, {best.summary} ({candidates} candidates, seed {seed})"
     if recording.up_axis is None:
         note += "; up axis not stated: z taken"
@@ -95,7 +93,7 @@ def place(
 
 @dataclass(frozen=True)
 class _Carried:
-    """A placement that the arm carries from the first sample to the last, and at what cost."""
+    """A placement with its start joints that the arm carries from the first pose to the last, and how."""
 
     placement: Placement
     limit_margin: float  # rad, smallest distance from a joint limit
@@ -134,14 +132,11 @@ class _Search:
         self.solver = InverseKinematics(arm)
         # Poses out of reach would spend all of the default's iterations, and most candidates have some.
         self.quick_solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
-        self.found: list[_Carried] = []
         self.closest: Placement | None = None  # by a look at its positions
         self.closest_share = 0.0
         self.most_carried = 0.0
 
-    def promising(
-        self, random: np.random.Generator, scale: tuple[float, float], count: int
-    ) -> list[Placement]:
+    def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the candidates of which every coarse pose can be solved, the largest first."""
         joints = _random_joints(self.arm, random, _CLOUD)
         reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
@@ -152,53 +147,50 @@ class _Search:
             share = self._share_near(placement, reached, near)
             if share > self.closest_share:
                 self.closest, self.closest_share = placement, share
-            if share == 1.0 and self._solves(placement):
+            if share == 1.0 and self._above_floor(placement) and self._solves(placement):
                 able.append(placement)
         return sorted(able, key=lambda placement: -placement.scale)
 
-    def follow_all(self, promising: list[Placement]) -> None:
-        """Follow one after the other until enough are carried from end to end."""
+    def carried(self, promising: list[Placement]) -> list[_Carried]:
+        """Follow one after the other until enough are carried from end to end and accepted.
+
+        Raises
+        ------
+        InvalidArgument
+            There is none.
+        """
+        found: list[_Carried] = []
         for placement in promising[:_FOLLOWED]:
-            self._follow(placement, **_QUICK)
-            if len(self.found) == _ENOUGH:
-                return
-
-    def improve(self, random: np.random.Generator, scale: tuple[float, float]) -> None:
-        """Try small changes, growing smaller, on the worthiest so far."""
-        for step in np.geomspace(1.0, 0.1, _IMPROVEMENTS if self.found else 0):
-            placement = _changed(self.ranked()[0].placement, random, step, scale)
-            if self._above_floor(placement) and self._solves(placement):
-                self._follow(placement, **_QUICK)
-
-    def ranked(self) -> list[_Carried]:
-        """Return what was found, the worthiest first."""
-        return sorted(self.found, key=lambda carried: -carried.worth)
-
-    def confirmed(self) -> _Carried:
-        """Return the worthiest of those that the default effort carries as well: its path may be another."""
-        again: list[_Carried] = []
-        for carried in self.ranked():
-            confirmed = self._follow(carried.placement)
-            again += [confirmed] if confirmed else []
-            if len(again) == _CONFIRMED:
+            start = self._start(placement)
+            carried = self._carry(placement, start) if start is not None else None
+            found += [carried] if carried else []
+            if len(found) == _ENOUGH:
                 break
-        if again:
-            return max(again, key=lambda carried: carried.worth)
+        if found:
+            return found
         raise InvalidArgument(
             f"recording: no placement found with which arm {self.arm.name!r} carries the whole motion; "
             f"{self._shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
         )
 
+    def improved(self, best: _Carried, random: np.random.Generator, scale: tuple[float, float]) -> _Carried:
+        """Return the best after small random changes, growing smaller."""
+        for step in np.geomspace(1.0, 0.1, _IMPROVEMENTS):
+            placement = _changed(best.placement, random, step, scale)
+            nearby = placement.start + random.normal(0.0, 0.2 * step, self.arm.joint_count)
+            held = self.solver.solve(placement.apply(self.poses[0]), nearby)
+            if held.ok and self._above_floor(placement):
+                best = self._carry(placement, held.joints, better_than=best.worth) or best
+        return best
+
     def _shortfall(self) -> str:
         if self.most_carried == 1.0:
             return "what the joints could follow was not accepted"
         if self.closest is not None:
-            self._follow(self.closest, **_QUICK)
+            self._start(self.closest)
         return f"the best one carries {100 * self.most_carried:.0f} % of it"
 
-    def _candidates(
-        self, random: np.random.Generator, scale: tuple[float, float], count: int
-    ) -> Iterator[Placement]:
+    def _candidates(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> Iterator[Placement]:
         """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
         middle = self.poses[self.coarse[0]]
         held = self.arm.forward_kinematics(_random_joints(self.arm, random, count))
@@ -214,10 +206,10 @@ class _Search:
             )
 
     def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
-        """Return the share of the coarse positions that the tip can take; below 1 if the motion dips too low."""
-        distance, _ = reached.query(placement.apply(self.poses[self.coarse])[:, :3, 3])
-        share = float(np.mean(distance < near))
-        return share if self._above_floor(placement) else 0.9 * share
+        """Return the share of the coarse positions that the tip can take, a little less if one is too low."""
+        position = placement.apply(self.poses[self.coarse])[:, :3, 3]
+        share = float(np.mean(reached.query(position)[0] < near))
+        return share if position[:, 2].min() >= self.floor else 0.9 * share
 
     def _above_floor(self, placement: Placement) -> bool:
         return bool(placement.apply(self.poses)[:, 2, 3].min() >= self.floor)
@@ -227,16 +219,21 @@ class _Search:
         thirds = np.array_split(placement.apply(self.poses[self.coarse]), 3)
         return all(self.quick_solver.solve_many(third).solved == len(third) for third in thirds)
 
-    def _follow(self, placement: Placement, **effort: int) -> _Carried | None:
-        """Follow the whole motion; what is carried and accepted joins the found ones."""
-        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **effort)
+    def _start(self, placement: Placement) -> Array | None:
+        """Search joints at the first pose from which the whole path can be followed."""
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **_EFFORT)
+        self.most_carried = max(self.most_carried, joints.report.solved / len(self.time))
+        return joints.position[0] if joints.report.complete else None
+
+    def _carry(self, placement: Placement, start: Array, better_than: float = 0.0) -> _Carried | None:
+        """Follow the path from `start`; None unless it is carried, worth more than that, and accepted."""
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start)
         report = joints.report
-        self.most_carried = max(self.most_carried, report.solved / len(self.time))
-        if not report.complete or not (self.accept is None or self.accept(joints)):
-            return None
+        placement = replace(placement, start=start)
         carried = _Carried(placement, report.limit_margin, report.velocity_ratio)
-        self.found.append(carried)
-        return carried
+        if not report.complete or carried.worth <= better_than:
+            return None
+        return carried if self.accept is None or self.accept(joints) else None
 
 
 def _random_joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
@@ -268,15 +265,13 @@ def _far_apart(recording: Recording, first: int, count: int) -> list[int]:
     return chosen
 
 
-def _changed(
-    placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]
-) -> Placement:
+def _changed(placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]) -> Placement:
     """Return a neighbour: up to about 5 cm, 10 deg and 10 % away for a step of 1."""
     turn = Rotation.from_rotvec(random.normal(0.0, 0.15 * step, 3)).as_matrix()
     return replace(
         placement,
         position=placement.position + random.normal(0.0, 0.04 * step, 3),
-        yaw=placement.yaw + random.normal(0.0, 0.15 * step),
+        yaw=float(np.remainder(placement.yaw + random.normal(0.0, 0.15 * step) + np.pi, 2 * np.pi) - np.pi),
         scale=float(np.clip(placement.scale * np.exp(random.normal(0.02, 0.1 * step)), *scale)),
         tool_rotation=_proper(placement.tool_rotation @ turn),
     )
