@@ -129,16 +129,15 @@ def picture(
     grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1.0), left=0.02, right=0.975, top=0.9, bottom=0.13)
     space = figure.add_subplot(grid[:, 0], projection="3d")
     paths(space, planned=planned, demonstrated=demonstrated, executed=executed)
-    space.legend(loc="upper left", bbox_to_anchor=(0.0, 0.98), frameon=False, labelcolor=_INK)
+    legend = {"frameon": False, "fontsize": 8.5, "columnspacing": 1.2, "labelcolor": _INK}
+    lines, labels = space.get_legend_handles_labels()
+    figure.legend(lines, labels, loc="center left", bbox_to_anchor=(0.022, 0.915), ncols=len(lines), **legend)
     above, below = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
     position_error(above, errors)
     angle_error(below, errors)
     below.set_xlabel("time [s]", color=_INK)
     above.tick_params(labelbottom=False)
-    above.legend(
-        loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=len(errors), frameon=False, fontsize=8.5,
-        handlelength=2.2, columnspacing=1.2, labelcolor=_INK,
-    )  # fmt: skip
+    above.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=len(errors), handlelength=2.2, **legend)
     figure.suptitle(title, x=0.03, y=0.965, ha="left", fontsize=13, color=_INK)
     figure.text(0.03, 0.03, note, fontsize=8.5, color=_FAINT)
     return _save(figure, Path(path))
@@ -232,7 +231,7 @@ def _errors(
     if any((getattr(curve, field) < _FLOOR_OF_LOG).any() for curve in curves):
         note = f"the lowest line is {_FLOOR_OF_LOG * scale:.0e} or less"
         axes.text(
-            0.995, 0.02, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=_FAINT
+            0.995, 0.065, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=_FAINT
         )
     axes.set_yscale("log")
     axes.set_ylabel(label, color=_INK)

@@ -54,9 +54,7 @@ class Bullet:
     contact can come a little early, never too late.
     """
 
-    def __init__(
-        self, arm: Arm, time_step: float, *, floor: float | None = 0.0, visuals: bool = False
-    ) -> None:
+    def __init__(self, arm: Arm, time_step: float, *, floor: float | None = 0.0, visuals: bool = False) -> None:
         """Load the arm into a world of its own."""
         if not (np.isfinite(time_step) and time_step > 0.0):
             raise InvalidArgument(f"time_step: {time_step}, expected a positive number of seconds.")
@@ -259,9 +257,7 @@ class Bullet:
         root = self._link_names[-1]
         standing = next(group for group in description.rigid_groups if root in group)
         for link in standing:
-            p.setCollisionFilterPair(
-                self._floor, self._body, -1, self._links[link], 0, physicsClientId=client
-            )
+            p.setCollisionFilterPair(self._floor, self._body, -1, self._links[link], 0, physicsClientId=client)
 
     # ---- reading -----------------------------------------------------------------------------------------
 
@@ -273,14 +269,12 @@ class Bullet:
 
     def _link_pose(self, link: int) -> NDArray[np.float64]:
         """Pose of a link's frame (not of its centre of mass) in the root's frame."""
-        pose = np.eye(4)
-        if link != -1:
-            state = self._p.getLinkState(
-                self._body, link, computeForwardKinematics=True, physicsClientId=self._client
-            )
-            pose[:3, 3] = state[4]
-            pose[:3, :3] = np.reshape(self._p.getMatrixFromQuaternion(state[5]), (3, 3))
-        return pose
+        if link == -1:
+            return np.eye(4)
+        state = self._p.getLinkState(self._body, link, computeForwardKinematics=True, physicsClientId=self._client)
+        x, y, z = state[4]
+        r = self._p.getMatrixFromQuaternion(state[5])
+        return np.array([(*r[:3], x), (*r[3:6], y), (*r[6:], z), (0.0, 0.0, 0.0, 1.0)])
 
     def _names_of(self, point: Any) -> tuple[str, str]:
         link = self._link_names[point[3]]

@@ -105,9 +105,7 @@ def _read_obj(text: str) -> NDArray[np.float64]:
 def _read_stl(data: bytes) -> NDArray[np.float64]:
     count = int.from_bytes(data[80:84], "little")
     if len(data) == 84 + 50 * count:
-        table = np.frombuffer(
-            data[84:], dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")]
-        )
+        table = np.frombuffer(data[84:], dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
         return table["corners"].astype(np.float64)
     words = (line.split() for line in data.decode(errors="replace").splitlines())
     points = [word[1:4] for word in words if word[:1] == ["vertex"]]

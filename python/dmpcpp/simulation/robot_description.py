@@ -71,9 +71,7 @@ def describe(arm: Arm, folder: Path, *, visuals: bool = False) -> RobotDescripti
             _split_into_convex_pieces(link, collision, folder)
     repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
     groups = _rigid_groups(robot)
-    return RobotDescription(
-        ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups)
-    )
+    return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
 
 
 def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:

@@ -45,9 +45,7 @@ def torque_duration_factor(
     gravity, damping, inertia = torque.transpose(1, 0, 2)
     if (np.abs(gravity) > limit).any():
         return float("inf")
-    speed = np.minimum(
-        _first_root(inertia, damping, gravity - limit), _first_root(inertia, damping, gravity + limit)
-    )
+    speed = np.minimum(_first_root(inertia, damping, gravity - limit), _first_root(inertia, damping, gravity + limit))
     return float(1.0 / speed.min())
 
 
@@ -71,9 +69,7 @@ def _terms(
     return gravity, 0.5 * (forward - backward), 0.5 * (forward + backward) - gravity
 
 
-def _first_root(
-    a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _first_root(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> NDArray[np.float64]:
     """Smallest root s > 0 of a s^2 + b s + c, infinity where there is none."""
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(b * b - 4.0 * a * c)

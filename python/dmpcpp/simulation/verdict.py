@@ -165,9 +165,7 @@ def _tracking(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
         rmse = float(np.sqrt(np.mean(errors**2))) if errors.size else math.nan
         limit = getattr(tolerances, f"{name}_rmse")
         yield Check(f"tracking_{name}_rmse", rmse <= limit, rmse, limit, unit)
-        yield _at_most(
-            f"tracking_{name}_max", _Series(time, errors), getattr(tolerances, f"{name}_max"), unit
-        )
+        yield _at_most(f"tracking_{name}_max", _Series(time, errors), getattr(tolerances, f"{name}_max"), unit)
     last = _Series(log.time[-1:], position_errors(log.desired_tool_pose[-1:], log.tool_pose[-1:]))
     yield _at_most("settle_error", last, tolerances.settle_error, "m")
 
