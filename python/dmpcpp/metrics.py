@@ -102,9 +102,7 @@ def best_lag(reference: ArrayLike, signal: ArrayLike, dt: float, max_lag: float 
     return float((shifts[best] + _vertex(cost, best)) * dt)
 
 
-def sparc(
-    speed: ArrayLike, rate: float, *, cutoff: float = 10.0, threshold: float = 0.05, padding: int = 4
-) -> float:
+def sparc(speed: ArrayLike, rate: float, *, cutoff: float = 10.0, threshold: float = 0.05, padding: int = 4) -> float:
     """Spectral arc length of a speed (T,) sampled at ``rate`` [Hz]: <= 0, the nearer to 0 the smoother.
 
     The negative length of the curve of the magnitude spectrum, scaled to 1 in height (by its value at 0 Hz)
@@ -147,9 +145,7 @@ def log_dimensionless_jerk(velocity: ArrayLike, rate: float) -> float:
         raise InvalidArgument("velocity: all zero. Smoothness is defined for a motion.")
     duration = (len(v) - 1) / rate
     jerk_squared = np.sum(np.diff(v, n=2, axis=0) ** 2, axis=1) * rate**4
-    integral = float(
-        trapezoid(np.pad(jerk_squared, 1, mode="edge"), dx=1.0 / rate)
-    )  # the ends have no difference
+    integral = float(trapezoid(np.pad(jerk_squared, 1, mode="edge"), dx=1.0 / rate))  # the ends have no difference
     return float(-np.log(duration**3 / peak**2 * integral)) if integral > 0.0 else float("inf")
 
 

@@ -149,9 +149,7 @@ def _figure() -> Figure:
         from matplotlib.figure import Figure
         from mpl_toolkits.mplot3d import Axes3D  # noqa: F401  registers the projection "3d"
     except ImportError:
-        raise MissingDependency(
-            'matplotlib is not installed. Install the extra: pip install "dmpcpp[plot]".'
-        ) from None
+        raise MissingDependency('matplotlib is not installed. Install the extra: pip install "dmpcpp[plot]".') from None
     figure = Figure(figsize=(12.5, 6.2), dpi=130, facecolor="white")
     FigureCanvasAgg(figure)
     return figure
@@ -230,9 +228,7 @@ def _errors(
         axes.axhline(limit * scale, color=_INK, linewidth=0.8)
     if any((getattr(curve, field) < _FLOOR_OF_LOG).any() for curve in curves):
         note = f"the lowest line is {_FLOOR_OF_LOG * scale:.0e} or less"
-        axes.text(
-            0.995, 0.065, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=_FAINT
-        )
+        axes.text(0.995, 0.065, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=_FAINT)
     axes.set_yscale("log")
     axes.set_ylabel(label, color=_INK)
     axes.grid(color=_GRID, linewidth=0.6)

@@ -6,9 +6,8 @@ import struct
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull, Delaunay
-
 from dmpcpp.simulation.convex_pieces import convex_pieces
+from scipy.spatial import ConvexHull, Delaunay
 
 
 def box(lower, upper):
@@ -22,9 +21,7 @@ def grid(triangles, rounds=3):
     for _ in range(rounds):
         a, b, c = triangles.transpose(1, 0, 2)
         ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
-        triangles = np.concatenate(
-            [np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-        )
+        triangles = np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
     return triangles
 
 
@@ -52,21 +49,15 @@ def write_text_stl(path, triangles):
 
 
 def hulls(pieces):
-    vertices = [
-        [line.split()[1:] for line in piece.splitlines() if line.startswith("v ")] for piece in pieces
-    ]
+    vertices = [[line.split()[1:] for line in piece.splitlines() if line.startswith("v ")] for piece in pieces]
     return [np.array(piece, dtype=float) for piece in vertices]
 
 
-@pytest.mark.parametrize(
-    "write, name", [(write_obj, "a.obj"), (write_binary_stl, "a.STL"), (write_text_stl, "a.stl")]
-)
+@pytest.mark.parametrize("write, name", [(write_obj, "a.obj"), (write_binary_stl, "a.STL"), (write_text_stl, "a.stl")])
 def test_an_angle_iron_becomes_two_legs_with_the_corner_left_open(tmp_path, write, name):
     pieces = hulls(convex_pieces(write(tmp_path / name, ANGLE)))
     assert 2 <= len(pieces) <= 4
-    assert (
-        sum(ConvexHull(piece).volume for piece in pieces) < 0.1
-    )  # the hull of the whole has 0.136, the iron 0.072
+    assert sum(ConvexHull(piece).volume for piece in pieces) < 0.1  # the hull of the whole has 0.136, the iron 0.072
     assert not any(Delaunay(piece).find_simplex([0.45, 0.1, 0.45]) >= 0 for piece in pieces)
 
 

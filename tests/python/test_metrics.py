@@ -101,15 +101,11 @@ def test_smoothness_depends_neither_on_size_nor_on_duration():
 def test_sparc_is_the_arc_length_of_the_normalised_spectrum():
     speed = minimum_jerk_speed(0.8, 200.0) + 0.3 * minimum_jerk_speed(0.8, 200.0)[::-1] ** 2
     count = 2 ** (int(np.ceil(np.log2(len(speed)))) + 4)
-    spectrum = [
-        abs(np.sum(speed * np.exp(-2j * np.pi * k * np.arange(len(speed)) / count))) for k in range(300)
-    ]
+    spectrum = [abs(np.sum(speed * np.exp(-2j * np.pi * k * np.arange(len(speed)) / count))) for k in range(300)]
     spectrum = np.array(spectrum) / max(spectrum)
     hertz = np.arange(300) * 200.0 / count
     last = max(k for k in range(300) if hertz[k] <= 10.0 and spectrum[k] >= 0.05)
-    arc = sum(
-        np.hypot((hertz[k + 1] - hertz[k]) / hertz[last], spectrum[k + 1] - spectrum[k]) for k in range(last)
-    )
+    arc = sum(np.hypot((hertz[k + 1] - hertz[k]) / hertz[last], spectrum[k + 1] - spectrum[k]) for k in range(last))
     assert metrics.sparc(speed, 200.0) == pytest.approx(-arc, abs=1e-10)
 
 

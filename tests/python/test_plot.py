@@ -14,9 +14,7 @@ pytest.importorskip("matplotlib")
 def helix(offset=0.0):
     u = np.linspace(0.0, 1.0, 300)
     poses = np.tile(np.eye(4), (300, 1, 1))
-    poses[:, :3, 3] = (
-        np.column_stack([0.4 + 0.2 * np.cos(6 * u), 0.2 * np.sin(6 * u), 0.3 + 0.3 * u]) + offset
-    )
+    poses[:, :3, 3] = np.column_stack([0.4 + 0.2 * np.cos(6 * u), 0.2 * np.sin(6 * u), 0.3 + 0.3 * u]) + offset
     return poses
 
 

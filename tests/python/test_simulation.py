@@ -130,9 +130,7 @@ def test_a_circle_goes_through_inverse_kinematics_and_both_time_scalings_to_a_so
     poses = np.tile(arm.forward_kinematics(np.array(HOME[name])), (301, 1, 1))
     poses[:, :3, 3] += 0.08 * np.column_stack([np.cos(turn) - 1.0, np.sin(turn), 0.5 * np.sin(turn)])
     joints = InverseKinematics(arm).follow(poses, times=time)
-    joints = stretched(
-        joints, duration_factor(joints, 0.95 * arm.velocity_limit, arms.acceleration_limit(arm))
-    )
+    joints = stretched(joints, duration_factor(joints, 0.95 * arm.velocity_limit, arms.acceleration_limit(arm)))
     joints = stretched(joints, max(1.0, simulation.torque_duration_factor(arm, joints)))
     log = simulation.execute(arm, joints)
     assert log.verdict.ok, log.verdict.failed
@@ -147,9 +145,7 @@ def test_a_circle_goes_through_inverse_kinematics_and_both_time_scalings_to_a_so
 
 def test_the_torque_of_a_pendulum_is_its_equation_of_motion():
     arm = Arm.from_urdf(PENDULUM.format(ixx=0.02), base="base", tip="rod")
-    log = simulation.execute(
-        arm, trajectory(arm, np.linspace(0, 2, 201), np.sin(np.linspace(0, 4, 201))[:, None])
-    )
+    log = simulation.execute(arm, trajectory(arm, np.linspace(0, 2, 201), np.sin(np.linspace(0, 4, 201))[:, None]))
     inertia, weight, damping = 0.03 + 2 * 0.4**2, 2 * 9.81 * 0.4, 0.7
     acceleration = np.gradient(log.velocity[:, 0], 1e-3)
     expected = inertia * acceleration - weight * np.cos(log.position[:, 0]) + damping * log.velocity[:, 0]
@@ -159,9 +155,7 @@ def test_the_torque_of_a_pendulum_is_its_equation_of_motion():
 
 
 def test_a_pendulum_that_is_let_go_swings_with_its_own_period():
-    arm = Arm.from_urdf(
-        PENDULUM.format(ixx=0.02).replace('damping="0.7"', 'damping="0"'), base="base", tip="rod"
-    )
+    arm = Arm.from_urdf(PENDULUM.format(ixx=0.02).replace('damping="0.7"', 'damping="0"'), base="base", tip="rod")
     with Bullet(arm, 1e-4) as world:
         world.reset(np.array([np.pi / 2 - 0.05]), np.zeros(1))  # the rod hangs down at +90 degrees
         angles = []
@@ -229,18 +223,14 @@ def test_lead_in_and_lead_out_join_without_a_jump_and_stay_gentle(panda):
 def test_a_lead_in_stays_inside_the_joint_limits_where_it_can(panda):
     centre = np.array(HOME["panda"])
     centre[0] = panda.upper[0] - 0.31  # at speed beside the limit
-    sampled = reference.sample(
-        panda, swing(panda, centre=centre), 1000.0, settle=0.2, from_rest=True, consistent=True
-    )
+    sampled = reference.sample(panda, swing(panda, centre=centre), 1000.0, settle=0.2, from_rest=True, consistent=True)
     assert (sampled.position <= panda.upper + 1e-9).all()
 
 
 def test_the_reference_between_samples_is_the_quintic_through_them(panda):
     polynomial = np.polynomial.Polynomial([0.1, -0.2, 0.3, 0.5, -0.7, 0.2])
     time = np.array([0.0, 0.3, 0.35, 1.0])
-    values = [
-        np.tile(polynomial.deriv(k)(time)[:, None] if k else polynomial(time)[:, None], 7) for k in range(3)
-    ]
+    values = [np.tile(polynomial.deriv(k)(time)[:, None] if k else polynomial(time)[:, None], 7) for k in range(3)]
     joints = Joints(time, *values, list(panda.joint_names))
     sampled = reference.sample(panda, joints, 1000.0, settle=0.0, from_rest=True, consistent=False)
     inside = sampled.time[sampled.motion]
@@ -443,9 +433,7 @@ def test_a_motion_too_fast_for_the_motors_is_slowed_just_enough_by_the_torque_fa
 def test_the_torque_factor_of_a_damped_pendulum_is_its_closed_form():
     arm = Arm.from_urdf(PENDULUM.format(ixx=0.02), base="base", tip="rod")
     one = np.ones((2, 1))
-    joints = Joints(
-        np.arange(2.0), np.pi / 2 * one, 30.0 * one, 100.0 * one, list(arm.joint_names)
-    )  # hanging down
+    joints = Joints(np.arange(2.0), np.pi / 2 * one, 30.0 * one, 100.0 * one, list(arm.joint_names))  # hanging down
     factor = simulation.torque_duration_factor(arm, joints, share=1.0)
     assert 0.35 * 100.0 / factor**2 + 0.7 * 30.0 / factor == pytest.approx(50.0)
 
@@ -504,9 +492,7 @@ def test_an_option_out_of_range_is_refused(panda, options, message):
 
 def test_a_trajectory_that_does_not_fit_the_arm_is_refused(panda):
     joints = swing(panda, 0.1)
-    with pytest.raises(
-        InvalidArgument, match=r"joints\.joint_names: .*Solve the inverse kinematics with this arm"
-    ):
+    with pytest.raises(InvalidArgument, match=r"joints\.joint_names: .*Solve the inverse kinematics with this arm"):
         simulation.execute(arms.find("iiwa"), joints)
     with pytest.raises(InvalidArgument, match=r"joints\.position\[3\]: not finite"):
         broken = joints.position.copy()
