@@ -77,9 +77,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
             click.option(
                 "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
             ),
-            click.option(
-                "--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."
-            ),
+            click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
         for option in reversed(options):
             command = option(command)
@@ -89,9 +87,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
 
 
 @main.command()
-@click.option(
-    "--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet."
-)
+@click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
 @click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
 @_arm_options
 @_run_options("dmpcpp-demo")
@@ -108,9 +104,7 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @main.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several.")
-@click.option(
-    "--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file."
-)
+@click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file.")
 @click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it.")
 @click.option("--time-unit", metavar="s|ms|us|ns", help="Unit of times, where the format does not say it.")
 @click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times.")
@@ -188,9 +182,7 @@ def _carry_out(
 
     _refuse_file(out)
     with _progress(as_json) as progress:
-        run = imitation.imitate(
-            recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress
-        )
+        run = imitation.imitate(recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress)
     imitation.write(run, out)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
@@ -277,7 +269,5 @@ def _checks_table(run: Imitation, table_type: type) -> Any:
     for check in run.checks:
         where = f"{check.time:.2f} s " if check.time is not None else ""
         mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
-        table.add_row(
-            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, where + check.detail
-        )
+        table.add_row(mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, where + check.detail)
     return table

@@ -10,6 +10,7 @@ Every stage is a value that can be looked at on its own; each step here is one c
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
@@ -45,9 +46,9 @@ Progress = Callable[[str, float], None]
 STAGES = ("place", "learn", "solve", "execute")
 
 _KERNELS = (50, 100, 200, 400, 800)  # tried in this order until the motion is reproduced
-_GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, np.radians(0.1)  # m, rad RMSE; below that more kernels are no use
+_GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, math.radians(0.1)  # m, rad RMSE; below that more kernels are no use
 _KERNELS_PER_SAMPLE = 4  # more than that would learn the spline between the samples, not the motion
-_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, np.radians(0.5)  # m, rad RMSE; what a reproduction must reach
+_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE; what a reproduction must reach
 _SAMPLES_PER_KERNEL = 10
 _RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
 
@@ -153,7 +154,7 @@ def imitate(
     demonstration = motion.demonstration(placed)
     model = learn(demonstration, basis_count)
     tell("solve", 0.0)
-    plan, joints, slowdown = _solve(model, arm)
+    plan, joints, slowdown = _solve(model, arm, placement.start if placement else None)
     tell("execute", 0.0)
     log = simulation.execute(arm, joints, progress=lambda done, total: tell("execute", done / total))
     stages = {
@@ -219,11 +220,16 @@ def _clear_of_itself(arm: Arm) -> Callable[[JointTrajectory], bool]:
     return clear
 
 
-def _solve(model: PoseDmp, arm: Arm) -> tuple[PoseTrajectory, JointTrajectory, float]:
+def _solve(
+    model: PoseDmp, arm: Arm, start: NDArray[np.float64] | None
+) -> tuple[PoseTrajectory, JointTrajectory, float]:
     """Return plan, joints and slowdown: the path as demonstrated, the duration as the joint limits ask for."""
     samples = _SAMPLES_PER_KERNEL * max(model.options.basis_count, 100)
     dt = model.duration / samples
-    joints = InverseKinematics(arm).follow(model.rollout(dt=dt))
+    solver = InverseKinematics(arm)
+    joints = solver.follow(model.rollout(dt=dt), start=start)
+    if start is not None and not joints.report.complete:  # the placement's joints were a suggestion
+        joints = solver.follow(model.rollout(dt=dt))
     slowdown = max(
         1.0,
         _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)),
@@ -267,9 +273,7 @@ def _picture(run: Imitation, path: Path) -> None:
     solved = run.log.arm.forward_kinematics(run.joints.position)
     executed = run.log.tool_pose[during]
 
-    def curve(
-        label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
-    ) -> plot.ErrorCurve:
+    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
         return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
 
     with replacing(path) as temporary:

@@ -81,9 +81,7 @@ class Bullet:
             body = pybullet.getBasePositionAndOrientation(self.body, physicsClientId=self.client)
             position, quaternion = pybullet.multiplyTransforms(*body, *inverse)
         else:
-            state = pybullet.getLinkState(
-                self.body, index, computeForwardKinematics=True, physicsClientId=self.client
-            )
+            state = pybullet.getLinkState(self.body, index, computeForwardKinematics=True, physicsClientId=self.client)
             position, quaternion = state[4], state[5]
         pose[:3, :3] = np.reshape(pybullet.getMatrixFromQuaternion(quaternion), (3, 3))
         pose[:3, 3] = position
@@ -270,8 +268,7 @@ def test_threads_may_share_a_solver_for_paths_and_batches(panda: Arm) -> None:
     serial = ik.follow(poses, times=times).position
     answers: list[np.ndarray] = []
     threads = [
-        threading.Thread(target=lambda: answers.append(ik.follow(poses, times=times).position))
-        for _ in range(4)
+        threading.Thread(target=lambda: answers.append(ik.follow(poses, times=times).position)) for _ in range(4)
     ]
     for thread in threads:
         thread.start()

@@ -81,9 +81,7 @@ def test_euler_angles_are_scipys(convention):
     for angles in np.random.default_rng(1).uniform(-1.5, 1.5, (50, 3)):
         expected = Rotation.from_euler(convention, angles).as_matrix()
         assert np.abs(so3.from_euler(angles, convention) - expected).max() < 1e-15
-        assert np.allclose(
-            so3.to_euler(expected, convention), Rotation.from_matrix(expected).as_euler(convention)
-        )
+        assert np.allclose(so3.to_euler(expected, convention), Rotation.from_matrix(expected).as_euler(convention))
 
 
 def test_the_sources_product_is_the_passive_one():

@@ -1,0 +1,1325 @@
+"""
+Dynamic movement primitives and inverse kinematics: the C++ libraries dmp::core and dmp::kinematics.
+"""
+from __future__ import annotations
+import collections.abc
+import enum
+import numpy
+import numpy.typing
+import os
+import typing
+from . import so3
+__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Start', 'Status', 'Trajectory', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'stretched', 'to_json']
+class InvalidArgument(ValueError):
+    pass
+class FileError(OSError):
+    pass
+class Trajectory:
+    """
+    Positions over time: what Dmp.rollout returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d) per s^2
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d)
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d) per s
+        """
+class OrientationTrajectory:
+    """
+    Orientations over time: what OrientationDmp.rollout returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 3) rad/s^2, world frame
+        """
+    @property
+    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 3) rad/s, world frame
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 3, 3) body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s
+        """
+class PoseTrajectory:
+    """
+    Poses over time: what PoseDmp.rollout returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 4, 4) [R p; 0 1], body -> world
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 3) m
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 3, 3)
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class Demonstration:
+    """
+    Positions over time as they were recorded, in any number of dimensions.
+    """
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        times (T,) s, strictly increasing; positions (T, d) or (T,), T >= 2. Raises InvalidArgument naming the sample.
+        """
+    def __len__(self) -> int:
+        ...
+    def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Trajectory:
+        """
+        Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.
+        """
+    @property
+    def dimension(self) -> int:
+        ...
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d)
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s, from 0
+        """
+class OrientationDemonstration:
+    """
+    Orientations over time as they were recorded.
+    """
+    @staticmethod
+    def from_euler(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angles: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], convention: str) -> OrientationDemonstration:
+        """
+        times (T,) s; angles (T, 3) rad; convention as in so3.from_euler, such as "ZYX".
+        """
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        times (T,) s, strictly increasing; rotations (T, 3, 3) body -> world. Raises InvalidArgument, naming the sample, for a reflection, a matrix not orthogonal to 1e-3, or neighbours more than pi/2 apart.
+        """
+    def __len__(self) -> int:
+        ...
+    def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> OrientationTrajectory:
+        """
+        Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the start.
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 3, 3)
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s, from 0
+        """
+class PoseDemonstration:
+    """
+    Poses over time as they were recorded.
+    """
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises InvalidArgument naming the sample.
+        """
+    def __len__(self) -> int:
+        ...
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def orientation(self) -> OrientationDemonstration:
+        ...
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 4, 4)
+        """
+    @property
+    def position(self) -> Demonstration:
+        ...
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s, from 0
+        """
+class Kernels(enum.Enum):
+    """
+    How the kernels lie over the phase.
+    """
+    equal_in_time: typing.ClassVar[Kernels]
+    source: typing.ClassVar[Kernels]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class Regression(enum.Enum):
+    """
+    How the weights are found.
+    """
+    lwr: typing.ClassVar[Regression]
+    ridge: typing.ClassVar[Regression]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class Scaling(enum.Enum):
+    """
+    By what the forcing term is multiplied when start and goal change.
+    """
+    none: typing.ClassVar[Scaling]
+    per_axis: typing.ClassVar[Scaling]
+    per_axis_relative: typing.ClassVar[Scaling]
+    rotation_dilation: typing.ClassVar[Scaling]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class OrientationForm(enum.Enum):
+    """
+    The equation of motion of orientations.
+    """
+    log_linear: typing.ClassVar[OrientationForm]
+    ude: typing.ClassVar[OrientationForm]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class LogBranch(enum.Enum):
+    """
+    Log(Rg R^T) followed through pi, or the shortest rotation.
+    """
+    lifted: typing.ClassVar[LogBranch]
+    principal: typing.ClassVar[LogBranch]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class Derivatives(enum.Enum):
+    """
+    Velocities and accelerations of a demonstration.
+    """
+    gradient: typing.ClassVar[Derivatives]
+    interpolate: typing.ClassVar[Derivatives]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class Start(enum.Enum):
+    """
+    What a rollout starts with.
+    """
+    demonstrated: typing.ClassVar[Start]
+    rest: typing.ClassVar[Start]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class Integrator(enum.Enum):
+    """
+    How a run steps.
+    """
+    exact: typing.ClassVar[Integrator]
+    semi_implicit_euler: typing.ClassVar[Integrator]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class DmpOptions:
+    """
+    Every choice there is in a Dmp, OrientationDmp or PoseDmp. The defaults reproduce.
+    """
+    @staticmethod
+    def source() -> DmpOptions:
+        """
+        The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended.
+        """
+    def __init__(self, **kwargs) -> None:
+        """
+        The fields as keywords; enumerators also by name: DmpOptions(regression="ridge").
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        spring and damper: tau zd = alpha (beta (g - y) - z) + f
+        """
+    @alpha.setter
+    def alpha(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def alpha_x(self) -> float:
+        """
+        decay of the phase variable
+        """
+    @alpha_x.setter
+    def alpha_x(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def basis_count(self) -> int:
+        """
+        N, kernels
+        """
+    @basis_count.setter
+    def basis_count(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def beta(self) -> float | None:
+        """
+        alpha / 4 unless given: critically damped
+        """
+    @beta.setter
+    def beta(self, arg0: typing.SupportsFloat | typing.SupportsIndex | None) -> None:
+        ...
+    @property
+    def derivatives(self) -> Derivatives:
+        """
+        a Derivatives or its name
+        """
+    @derivatives.setter
+    def derivatives(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def duration_filter(self) -> float:
+        """
+        s, time constant with which a new duration is approached
+        """
+    @duration_filter.setter
+    def duration_filter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def force_after_end(self) -> bool:
+        """
+        the forcing term goes on after the duration
+        """
+    @force_after_end.setter
+    def force_after_end(self, arg0: bool) -> None:
+        ...
+    @property
+    def goal_filter(self) -> float:
+        """
+        a new goal is approached by tau gd = goal_filter (g* - g)
+        """
+    @goal_filter.setter
+    def goal_filter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def integrator(self) -> Integrator:
+        """
+        an Integrator or its name
+        """
+    @integrator.setter
+    def integrator(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def kernels(self) -> Kernels:
+        """
+        a Kernels or its name
+        """
+    @kernels.setter
+    def kernels(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def log_branch(self) -> LogBranch:
+        """
+        a LogBranch or its name
+        """
+    @log_branch.setter
+    def log_branch(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def orientation_alpha(self) -> float | None:
+        """
+        alpha unless given
+        """
+    @orientation_alpha.setter
+    def orientation_alpha(self, arg0: typing.SupportsFloat | typing.SupportsIndex | None) -> None:
+        ...
+    @property
+    def orientation_beta(self) -> float | None:
+        """
+        beta unless given; orientation_alpha / 4 if only that is given
+        """
+    @orientation_beta.setter
+    def orientation_beta(self, arg0: typing.SupportsFloat | typing.SupportsIndex | None) -> None:
+        ...
+    @property
+    def orientation_form(self) -> OrientationForm:
+        """
+        an OrientationForm or its name
+        """
+    @orientation_form.setter
+    def orientation_form(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def overlap(self) -> float | None:
+        """
+        neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)
+        """
+    @overlap.setter
+    def overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex | None) -> None:
+        ...
+    @property
+    def passes(self) -> int:
+        """
+        of locally weighted regression; 1 is the textbook's
+        """
+    @passes.setter
+    def passes(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def regression(self) -> Regression:
+        """
+        a Regression or its name
+        """
+    @regression.setter
+    def regression(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def ridge(self) -> float:
+        """
+        times trace / N on the diagonal
+        """
+    @ridge.setter
+    def ridge(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def scaling(self) -> Scaling:
+        """
+        a Scaling or its name
+        """
+    @scaling.setter
+    def scaling(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start(self) -> Start:
+        """
+        a Start or its name
+        """
+    @start.setter
+    def start(self, arg1: typing.Any) -> None:
+        ...
+class Status(enum.Enum):
+    """
+    What a call inside the control loop says.
+    """
+    finished: typing.ClassVar[Status]
+    invalid_input: typing.ClassVar[Status]
+    not_finite: typing.ClassVar[Status]
+    running: typing.ClassVar[Status]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class Dmp:
+    """
+    A dynamic movement primitive for positions in R^d. Immutable.
+    """
+    @staticmethod
+    @typing.overload
+    def fit(demonstration: Demonstration, options: DmpOptions | None = None, **kwargs) -> Dmp:
+        """
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge").
+        """
+    @staticmethod
+    @typing.overload
+    def fit(demonstrations: collections.abc.Sequence[Demonstration], options: DmpOptions | None = None, **kwargs) -> Dmp:
+        ...
+    def __getstate__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The kernels (T, N) at phases (T,); rows sum to 1 if normalised.
+        """
+    def forcing(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
+        """
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Trajectory:
+        """
+        The motion from the demonstrated start to `goal` (d,) within `duration` s, at 0, dt, ... up to the duration.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Trajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def dimension(self) -> int:
+        ...
+    @property
+    def duration(self) -> float:
+        """
+        tau of the demonstration, s
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def options(self) -> DmpOptions:
+        """
+        A copy: what the model was learned with.
+        """
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N, dims) of the forcing term
+        """
+class Run:
+    """
+    One run of a Dmp, for one control loop.
+    """
+    def __copy__(self) -> Run:
+        ...
+    def __init__(self, dmp: Dmp) -> None:
+        ...
+    def reset(self) -> None:
+        """
+        Begins anew at the demonstrated start, with the goal and duration that were set last.
+        """
+    def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        The duration in s of the whole motion from now on; the path stays the same.
+        """
+    def start_from(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        Begins anew at position (d,) with velocity (d,) per s.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite.
+        """
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) per s^2
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) the goal to go to from now on, approached through the goal filter
+        """
+    @goal.setter
+    def goal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def phase(self) -> float:
+        """
+        0 at the start, 1 at the end
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def status(self) -> Status:
+        ...
+    @property
+    def time(self) -> float:
+        """
+        s since the start
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) per s
+        """
+class OrientationDmp:
+    """
+    A dynamic movement primitive for orientations on SO(3). Immutable.
+    """
+    @staticmethod
+    @typing.overload
+    def fit(demonstration: OrientationDemonstration, options: DmpOptions | None = None, **kwargs) -> OrientationDmp:
+        """
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge").
+        """
+    @staticmethod
+    @typing.overload
+    def fit(demonstrations: collections.abc.Sequence[OrientationDemonstration], options: DmpOptions | None = None, **kwargs) -> OrientationDmp:
+        ...
+    def __getstate__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The kernels (T, N) at phases (T,); rows sum to 1 if normalised.
+        """
+    def forcing(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
+        """
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> OrientationTrajectory:
+        """
+        The motion from the demonstrated start to `goal` (3, 3) within `duration` s, at 0, dt, ... up to the duration.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> OrientationTrajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def duration(self) -> float:
+        """
+        tau of the demonstration, s
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+    @property
+    def options(self) -> DmpOptions:
+        """
+        A copy: what the model was learned with.
+        """
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N, dims) of the forcing term
+        """
+class OrientationRun:
+    """
+    One run of an OrientationDmp, for one control loop.
+    """
+    def __copy__(self) -> OrientationRun:
+        ...
+    def __init__(self, dmp: OrientationDmp) -> None:
+        ...
+    def reset(self) -> None:
+        """
+        Begins anew at the demonstrated start, with the goal and duration that were set last.
+        """
+    def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        The duration in s of the whole motion from now on; the path stays the same.
+        """
+    def start_from(self, rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        Begins anew at rotation (3, 3) with angular velocity (3,) rad/s, world frame.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite.
+        """
+    @property
+    def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) rad/s^2, world frame
+        """
+    @property
+    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) rad/s, world frame
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3) the goal to go to from now on, approached through the goal filter
+        """
+    @goal.setter
+    def goal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def phase(self) -> float:
+        """
+        0 at the start, 1 at the end
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3) body -> world
+        """
+    @property
+    def status(self) -> Status:
+        ...
+    @property
+    def time(self) -> float:
+        """
+        s since the start
+        """
+class PoseDmp:
+    """
+    A dynamic movement primitive for poses [R p; 0 1], position and orientation in one phase. Immutable.
+    """
+    @staticmethod
+    @typing.overload
+    def fit(demonstration: PoseDemonstration, options: DmpOptions | None = None, **kwargs) -> PoseDmp:
+        """
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge").
+        """
+    @staticmethod
+    @typing.overload
+    def fit(demonstrations: collections.abc.Sequence[PoseDemonstration], options: DmpOptions | None = None, **kwargs) -> PoseDmp:
+        ...
+    def __getstate__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The kernels (T, N) at phases (T,); rows sum to 1 if normalised.
+        """
+    def forcing(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
+        """
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseTrajectory:
+        """
+        The motion from the demonstrated start to `goal` (4, 4) within `duration` s, at 0, dt, ... up to the duration.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseTrajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def duration(self) -> float:
+        """
+        tau of the demonstration, s
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4)
+        """
+    @property
+    def options(self) -> DmpOptions:
+        """
+        A copy: what the model was learned with.
+        """
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4)
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N, dims) of the forcing term
+        """
+class PoseRun:
+    """
+    One run of a PoseDmp, for one control loop.
+    """
+    def __copy__(self) -> PoseRun:
+        ...
+    def __init__(self, dmp: PoseDmp) -> None:
+        ...
+    def reset(self) -> None:
+        """
+        Begins anew at the demonstrated start, with the goal and duration that were set last.
+        """
+    def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        The duration in s of the whole motion from now on; the path stays the same.
+        """
+    def start_from(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], twist: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        Begins anew at pose (4, 4) with twist (6,) m/s, rad/s.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite.
+        """
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) m/s^2, rad/s^2, world frame
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4) the goal to go to from now on, approached through the goal filter
+        """
+    @goal.setter
+    def goal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def phase(self) -> float:
+        """
+        0 at the start, 1 at the end
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4) [R p; 0 1]
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+    @property
+    def status(self) -> Status:
+        ...
+    @property
+    def time(self) -> float:
+        """
+        s since the start
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class Arm:
+    """
+    The serial chain of n free joints from the link `base` to the link `tip` of a robot.
+    
+    An immutable value that any number of threads may use. Fixed joints are folded away, mimic joints move with their
+    master. Radians for turning joints, metres for sliding ones; poses are tip in base.
+    """
+    @staticmethod
+    def from_urdf(text: str, base: str = '', tip: str = '') -> Arm:
+        """
+        Read a URDF; base "" is the root link, tip "" the only link without children below the base.
+        
+        Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.
+        """
+    @staticmethod
+    def from_urdf_file(path: typing.Any, base: str = '', tip: str = '') -> Arm:
+        """
+        Read a URDF from a file and keep its folder. Raises FileError if it can not be read.
+        """
+    def __repr__(self) -> str:
+        ...
+    def forward_kinematics(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Pose of the tip (4, 4) at joints (n,), or poses (T, 4, 4) at joints (T, n), by KDL.
+        """
+    def jacobian(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6, n) linear velocity (rows 0-2), then angular velocity of the tip (rows 3-5), in the base frame, by KDL.
+        """
+    def manipulability(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+        """
+        sqrt(det(J J^T)), 0 where the arm is singular (Yoshikawa 1985).
+        """
+    def with_limits(self, *, lower: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, upper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, effort: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> Arm:
+        """
+        A copy with other joint limits, each of n values; what is None stays.
+        """
+    @property
+    def base(self) -> str:
+        """
+        Link in whose frame poses are given.
+        """
+    @property
+    def effort_limit(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) N m or N; inf where the URDF states none.
+        """
+    @property
+    def folder(self) -> str:
+        """
+        Folder of the file that was read; empty after from_urdf.
+        """
+    @property
+    def joint_count(self) -> int:
+        """
+        Number of free joints, n.
+        """
+    @property
+    def joint_names(self) -> list[str]:
+        """
+        Names of the n free joints, from base to tip.
+        """
+    @property
+    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad or m; -inf for a continuous joint.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Name of the robot.
+        """
+    @property
+    def tip(self) -> str:
+        """
+        Link whose pose is given.
+        """
+    @property
+    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad or m; inf for a continuous joint.
+        """
+    @property
+    def urdf(self) -> str:
+        """
+        The text that was read.
+        """
+    @property
+    def velocity_limit(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad/s or m/s; inf where the URDF states none.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        What is doubtful in the URDF, one sentence each.
+        """
+class IkStatus(enum.Enum):
+    """
+    Why joints do or do not meet a pose.
+    """
+    budget: typing.ClassVar[IkStatus]
+    invalid_input: typing.ClassVar[IkStatus]
+    limit_blocked: typing.ClassVar[IkStatus]
+    ok: typing.ClassVar[IkStatus]
+    out_of_reach: typing.ClassVar[IkStatus]
+    singular: typing.ClassVar[IkStatus]
+    step_limited: typing.ClassVar[IkStatus]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class IkResult:
+    """
+    The joints whose tip is at the pose, or as close to it as the search came.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def angle_error(self) -> float:
+        """
+        rad, by KDL's forward kinematics.
+        """
+    @property
+    def blocked(self) -> list[int]:
+        """
+        Indices of the joints that a limit holds back.
+        """
+    @property
+    def iterations(self) -> int:
+        ...
+    @property
+    def joints(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad or m.
+        """
+    @property
+    def limit_margin(self) -> float:
+        """
+        rad or m from the nearest joint limit.
+        """
+    @property
+    def ok(self) -> bool:
+        """
+        True if status is ok.
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        m, by KDL's forward kinematics.
+        """
+    @property
+    def status(self) -> IkStatus:
+        ...
+class IkBatch:
+    """
+    What solve_many found for N poses.
+    """
+    @property
+    def angle_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,) rad.
+        """
+    @property
+    def joints(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N, n) rad or m.
+        """
+    @property
+    def position_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,) m.
+        """
+    @property
+    def solved(self) -> int:
+        """
+        How many poses have the status ok.
+        """
+    @property
+    def status(self) -> list[IkStatus]:
+        """
+        N times IkStatus.
+        """
+class PathReport:
+    """
+    How well joints follow a path of T poses.
+    """
+    def __repr__(self) -> str:
+        ...
+    def summary(self) -> str:
+        """
+        The worst errors and the runs that were missed, in one sentence.
+        """
+    @property
+    def angle_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) rad.
+        """
+    @property
+    def complete(self) -> bool:
+        """
+        True if every pose is met.
+        """
+    @property
+    def limit_margin(self) -> float:
+        """
+        rad or m, the smallest distance from a joint limit.
+        """
+    @property
+    def max_step(self) -> float:
+        """
+        rad or m, the largest step of any joint.
+        """
+    @property
+    def missed(self) -> list[tuple[int, int]]:
+        """
+        First and last index of each run of poses that were missed.
+        """
+    @property
+    def position_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) m.
+        """
+    @property
+    def solved(self) -> int:
+        """
+        How many poses have the status ok.
+        """
+    @property
+    def starts_tried(self) -> int:
+        """
+        Joint paths that were tracked.
+        """
+    @property
+    def status(self) -> list[IkStatus]:
+        """
+        T times IkStatus.
+        """
+    @property
+    def velocity_ratio(self) -> float:
+        """
+        The largest speed over the velocity limit.
+        """
+class JointTrajectory:
+    """
+    Joints over time, with the derivatives of their C2 cubic spline.
+    """
+    @staticmethod
+    def through(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], joint_names: collections.abc.Sequence[str] = []) -> JointTrajectory:
+        """
+        The C2 cubic spline (not-a-knot ends) through positions (T, n) at times (T,).
+        """
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, n) rad/s^2.
+        """
+    @property
+    def joint_names(self) -> list[str]:
+        ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, n) rad.
+        """
+    @property
+    def report(self) -> PathReport:
+        ...
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s.
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, n) rad/s.
+        """
+class IkBackend(enum.Enum):
+    """
+    Which KDL position solver makes the single descents.
+    """
+    bounded_lm: typing.ClassVar[IkBackend]
+    kdl_lma: typing.ClassVar[IkBackend]
+    kdl_nr_jl: typing.ClassVar[IkBackend]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class IkOptions:
+    """
+    How InverseKinematics searches.
+    """
+    backend: IkBackend
+    def __init__(self) -> None:
+        ...
+    @property
+    def angle_tolerance(self) -> float:
+        """
+        rad, > 0.
+        """
+    @angle_tolerance.setter
+    def angle_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def angle_weight(self) -> float:
+        """
+        m per rad: closest is position + weight * angle.
+        """
+    @angle_weight.setter
+    def angle_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def diagnose(self) -> bool:
+        """
+        Search on without limits to tell why a pose is missed.
+        """
+    @diagnose.setter
+    def diagnose(self, arg0: bool) -> None:
+        ...
+    @property
+    def iteration_limit(self) -> int:
+        """
+        Of one solve, all restarts together.
+        """
+    @iteration_limit.setter
+    def iteration_limit(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def max_step(self) -> float:
+        """
+        rad or m: how far solve may leave the seed.
+        """
+    @max_step.setter
+    def max_step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def position_tolerance(self) -> float:
+        """
+        m, > 0.
+        """
+    @position_tolerance.setter
+    def position_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def random_seed(self) -> int:
+        ...
+    @random_seed.setter
+    def random_seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+class FollowOptions:
+    """
+    How InverseKinematics.follow goes about a path.
+    """
+    respect_velocity: bool
+    def __init__(self) -> None:
+        ...
+    @property
+    def anchors(self) -> int:
+        """
+        Poses of the path at which starts are searched.
+        """
+    @anchors.setter
+    def anchors(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def angle_tolerance(self) -> float:
+        """
+        rad: when a pose counts as met.
+        """
+    @angle_tolerance.setter
+    def angle_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def max_step(self) -> float:
+        """
+        rad or m from one pose to the next.
+        """
+    @max_step.setter
+    def max_step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def position_tolerance(self) -> float:
+        """
+        m: when a pose counts as met.
+        """
+    @position_tolerance.setter
+    def position_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def start(self) -> typing.Any:
+        """
+        (n,) where the robot already stands, or None to search.
+        """
+    @start.setter
+    def start(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None) -> None:
+        ...
+    @property
+    def starts(self) -> int:
+        """
+        Joints tried at each anchor.
+        """
+    @starts.setter
+    def starts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+class InverseKinematics:
+    """
+    Joints for poses of an Arm's tip.
+    
+    The fields of IkOptions are taken as keywords too. Every answer depends on the arguments and the options alone.
+    """
+    def __init__(self, arm: Arm, options: IkOptions | None = None, **kwargs) -> None:
+        ...
+    def follow(self, path: typing.Any, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, options: FollowOptions | None = None, **kwargs) -> JointTrajectory:
+        """
+        Joints for a whole path, with a report for every pose. Releases the GIL.
+        
+        `path` is a trajectory with .time (T,) and .pose (T, 4, 4), or the poses themselves with times=(T,) in s.
+        The fields of FollowOptions are taken as keywords too.
+        """
+    def solve(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> IkResult:
+        """
+        Joints (n,) whose tip is at the pose (4, 4), or as close as can be, with a status that says why.
+        
+        Never raises because a pose is out of reach; raises InvalidArgument for a pose that is none.
+        """
+    def solve_many(self, poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> IkBatch:
+        """
+        solve() for each of the poses (N, 4, 4), each begun at the last joints that met theirs. Releases the GIL.
+        """
+    @property
+    def arm(self) -> Arm:
+        ...
+    @property
+    def middle(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) the middle of each joint's range: the seed where none is given.
+        """
+    @property
+    def options(self) -> IkOptions:
+        ...
+def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+    """
+    The smallest factor on the duration with which the joints' spline stays within the limits (n,) and (n,).
+    """
+def from_json(text: str) -> typing.Any:
+    """
+    The model in the text of a model file. Raises InvalidArgument naming the place.
+    """
+def load(path: os.PathLike | str | bytes) -> typing.Any:
+    """
+    The Dmp, OrientationDmp or PoseDmp in a file, bit for bit as it was saved. Raises FileError, or InvalidArgument naming the place.
+    """
+@typing.overload
+def save(model: Dmp, path: os.PathLike | str | bytes) -> None:
+    """
+    Writes a model file (JSON), whole or not at all. Raises FileError.
+    """
+@typing.overload
+def save(model: OrientationDmp, path: os.PathLike | str | bytes) -> None:
+    """
+    Writes a model file (JSON), whole or not at all. Raises FileError.
+    """
+@typing.overload
+def save(model: PoseDmp, path: os.PathLike | str | bytes) -> None:
+    """
+    Writes a model file (JSON), whole or not at all. Raises FileError.
+    """
+def stretched(joints: JointTrajectory, factor: typing.SupportsFloat | typing.SupportsIndex) -> JointTrajectory:
+    """
+    The same path, `factor` times as long from the same first time.
+    """
+@typing.overload
+def to_json(model: Dmp) -> str:
+    """
+    The text of a model file.
+    """
+@typing.overload
+def to_json(model: OrientationDmp) -> str:
+    """
+    The text of a model file.
+    """
+@typing.overload
+def to_json(model: PoseDmp) -> str:
+    """
+    The text of a model file.
+    """
+__version__: str = '0.1.0'
