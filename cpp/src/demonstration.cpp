@@ -111,10 +111,37 @@ Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
   return {times, std::move(samples.value), std::move(samples.first), std::move(samples.second)};
 }
 
+Demonstration::Demonstration(Eigen::VectorXd time, RowMatrix position, Spline spline)
+    : time_(std::move(time)), position_(std::move(position)), spline_(std::move(spline)) {}
+
+Demonstration Demonstration::smoothed(Smoothing* report) const {
+  Spline spline = Spline::smoothing(time_, position_, report);
+  RowMatrix position = spline.sample(time_).value;
+  return {time_, std::move(position), std::move(spline)};
+}
+
 OrientationDemonstration::OrientationDemonstration(const Eigen::VectorXd& times, const Rotations& rotations)
     : time_(from_zero(times, static_cast<Index>(rotations.size()), "rotations")),
       rotation_(checked(rotations)),
       spline_(time_, continuous_quaternions(rotation_)) {}
+
+OrientationDemonstration::OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline)
+    : time_(std::move(time)), rotation_(std::move(rotation)), spline_(std::move(spline)) {}
+
+OrientationDemonstration OrientationDemonstration::smoothed(Smoothing* report) const {
+  Smoothing found;
+  Spline spline = Spline::smoothing(time_, continuous_quaternions(rotation_), &found);
+  const RowMatrix values = spline.sample(time_).value;
+  Rotations rotations;
+  for (Index k = 0; k < values.rows(); ++k)
+    rotations.push_back(quaternion(values, k).normalized().toRotationMatrix());
+  // A turn by v changes a quaternion by v / 2, which has three free directions of its four.
+  const auto per_axis = [](const Eigen::VectorXd& q) {
+    return Eigen::VectorXd::Constant(1, 2.0 * q.norm() / std::sqrt(3.0));
+  };
+  if (report) *report = {per_axis(found.noise), per_axis(found.removed)};
+  return {time_, std::move(rotations), std::move(spline)};
+}
 
 OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::VectorXd& times,
                                                               const RowMatrix& angles,
@@ -149,6 +176,13 @@ OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times)
 
 PoseDemonstration::PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses)
     : position_(times, positions_of(poses)), orientation_(times, rotations_of(poses)) {}
+
+PoseDemonstration::PoseDemonstration(Demonstration position, OrientationDemonstration orientation)
+    : position_(std::move(position)), orientation_(std::move(orientation)) {}
+
+PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* orientation) const {
+  return {position_.smoothed(position), orientation_.smoothed(orientation)};
+}
 
 Poses PoseDemonstration::pose() const {
   Poses poses;

@@ -154,6 +154,10 @@ Status Run::set_goal(const Eigen::Ref<const VectorXd>& goal) noexcept {
 }
 
 Status Run::set_duration(double duration) noexcept { return state_->runner.set_duration(duration); }
+Status Run::set_tracking_error(double error) noexcept { return state_->runner.set_tracking_error(error); }
+void Run::pause() noexcept { state_->runner.pause(); }
+void Run::resume() noexcept { state_->runner.resume(); }
+bool Run::paused() const noexcept { return state_->runner.phase().paused(); }
 
 Status Run::start_from(const Eigen::Ref<const VectorXd>& position,
                        const Eigen::Ref<const VectorXd>& velocity) noexcept {

@@ -13,13 +13,14 @@ DmpOptions DmpOptions::source() {
   options.kernels = Kernels::source;
   options.passes = 1;
   options.scaling = Scaling::per_axis;
+  options.orientation_form = OrientationForm::ude;
   options.log_branch = LogBranch::principal;
   options.derivatives = Derivatives::gradient;
   options.start = Start::rest;
   options.integrator = Integrator::semi_implicit_euler;
   options.force_after_end = true;
   options.goal_filter = 0.0;
-  options.duration_filter = 0.0;
+  options.tempo_filter = 0.0;
   return options;
 }
 

@@ -37,6 +37,7 @@ OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 3, "amplitude");
   detail::require_weights(given.weights, given.options.basis_count, 3);
+  parameters.options.orientation_form = detail::form_for(parameters.options, given.start_error.norm());
   return parameters;
 }
 
@@ -74,7 +75,11 @@ OrientationDmp OrientationDmp::fit(const OrientationDemonstration& demonstration
 OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& demonstrations,
                                    const DmpOptions& options) {
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
-  const DmpOptions resolved = detail::resolved(options);
+  DmpOptions resolved = detail::resolved(options);
+  double farthest = 0.0;
+  for (const OrientationDemonstration& demonstration : demonstrations)
+    farthest = std::max(farthest, detail::largest_log(demonstration, resolved.log_branch));
+  resolved.orientation_form = detail::form_for(resolved, farthest);
   std::vector<detail::OrientationLesson> lessons;
   for (const OrientationDemonstration& demonstration : demonstrations)
     lessons.push_back(detail::lesson_of(demonstration, resolved));
@@ -163,6 +168,12 @@ Status OrientationRun::set_goal(const Matrix3d& goal) noexcept {
 Status OrientationRun::set_duration(double duration) noexcept {
   return state_->runner.set_duration(duration);
 }
+Status OrientationRun::set_tracking_error(double error) noexcept {
+  return state_->runner.set_tracking_error(error);
+}
+void OrientationRun::pause() noexcept { state_->runner.pause(); }
+void OrientationRun::resume() noexcept { state_->runner.resume(); }
+bool OrientationRun::paused() const noexcept { return state_->runner.phase().paused(); }
 
 Status OrientationRun::start_from(const Matrix3d& rotation, const Vector3d& angular_velocity) noexcept {
   if (!detail::is_rotation(rotation) || !angular_velocity.allFinite()) return Status::invalid_input;

@@ -2,48 +2,92 @@
 #include <dmp/phase.hpp>
 
 #include <cmath>
-#include <string>
+
+#include "detail/text.hpp"
 
 namespace dmp {
+namespace {
 
-Phase::Phase(double duration, double alpha_x) : alpha_x_(alpha_x), tau_(duration), target_tau_(duration) {
-  if (!(std::isfinite(duration) && duration > 0.0))
-    throw InvalidArgument("duration: " + std::to_string(duration) + ", expected a positive time in s.");
-  if (!(std::isfinite(alpha_x) && alpha_x > 0.0))
-    throw InvalidArgument("alpha_x: " + std::to_string(alpha_x) + ", expected a positive decay rate.");
+bool is_duration(double duration) noexcept {
+  return std::isfinite(duration) && duration > 0.0 && std::isfinite(1.0 / duration);
+}
+
+void require(bool holds, const char* name, double value, const char* expected) {
+  if (!holds)
+    throw InvalidArgument(std::string(name) + ": " + detail::number(value) + ", expected " + expected + ".");
+}
+
+}  // namespace
+
+Phase::Phase(double duration, double alpha_x, double filter, double stop_gain)
+    : alpha_x_(alpha_x),
+      filter_(filter),
+      stop_gain_(stop_gain),
+      tau_(duration),
+      speed_(1.0 / duration),
+      target_speed_(speed_) {
+  require(is_duration(duration), "duration", duration, "a positive time in s");
+  require(std::isfinite(alpha_x) && alpha_x > 0.0, "alpha_x", alpha_x, "a positive decay rate");
+  require(std::isfinite(filter) && filter >= 0.0, "tempo_filter", filter, "a time constant in s, 0 or more");
+  require(std::isfinite(stop_gain) && stop_gain >= 0.0, "phase_stop", stop_gain, "a gain, 0 or more");
 }
 
 double Phase::x() const noexcept { return std::exp(-alpha_x_ * s_); }
 
-double Phase::duration_rate() const noexcept { return filter_ > 0.0 ? (target_tau_ - tau_) / filter_ : 0.0; }
+double Phase::speed_rate() const noexcept {
+  return speed_ == target_speed_ ? 0.0 : (target_speed_ - speed_) / filter_;
+}
 
-bool Phase::set_duration(double duration, double filter) noexcept {
-  if (!(std::isfinite(duration) && duration > 0.0 && std::isfinite(filter) && filter >= 0.0)) return false;
-  target_tau_ = duration;
-  filter_ = filter;
-  if (filter == 0.0) tau_ = duration;
+bool Phase::set_duration(double duration) noexcept {
+  if (!is_duration(duration)) return false;
+  tau_ = duration;
+  retarget();
   return true;
 }
 
+bool Phase::set_tracking_error(double error) noexcept {
+  if (!(std::isfinite(error) && error >= 0.0)) return false;
+  error_ = error;
+  retarget();
+  return true;
+}
+
+void Phase::pause() noexcept {
+  paused_ = true;
+  retarget();
+}
+
+void Phase::resume() noexcept {
+  paused_ = false;
+  retarget();
+}
+
+void Phase::retarget() noexcept {
+  target_speed_ = paused_ ? 0.0 : 1.0 / (tau_ * (1.0 + stop_gain_ * error_));
+  if (filter_ == 0.0) speed_ = target_speed_;
+}
+
 double Phase::increment(double dt) const noexcept {
-  if (tau_ == target_tau_) return dt / tau_;
-  const double later = target_tau_ + (tau_ - target_tau_) * std::exp(-dt / filter_);
-  return (dt + filter_ * std::log(later / tau_)) / target_tau_;
+  if (speed_ == target_speed_) return dt * speed_;
+  return dt * target_speed_ - (speed_ - target_speed_) * filter_ * std::expm1(-dt / filter_);
 }
 
 void Phase::advance(double dt) noexcept {
   s_ += increment(dt);
   time_ += dt;
-  if (tau_ == target_tau_) return;
-  tau_ = target_tau_ + (tau_ - target_tau_) * std::exp(-dt / filter_);
-  // The filter only ever halves the distance: close it once it no longer shows.
-  if (std::abs(tau_ - target_tau_) < 1e-12 * target_tau_) tau_ = target_tau_;
+  if (speed_ == target_speed_) return;
+  speed_ = target_speed_ + (speed_ - target_speed_) * std::exp(-dt / filter_);
+  // The filter only ever closes a share of the distance: end it once it no longer shows.
+  if (std::abs(speed_ - target_speed_) * tau_ < 1e-12) speed_ = target_speed_;
 }
 
 void Phase::reset() noexcept {
   s_ = 0.0;
   time_ = 0.0;
-  tau_ = target_tau_;
+  paused_ = false;
+  error_ = 0.0;
+  retarget();
+  speed_ = target_speed_;
 }
 
 }  // namespace dmp

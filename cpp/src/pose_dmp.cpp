@@ -30,9 +30,9 @@ struct PoseMotion {
     orientation.advance(step, {f.start + 3, f.middle + 3, f.end + 3});
   }
   bool finite() const noexcept { return position.finite() && orientation.finite(); }
-  void publish(double tau, double tau_rate, const double* forcing) noexcept {
-    position.publish(tau, tau_rate, forcing);
-    orientation.publish(tau, tau_rate, forcing + 3);
+  void publish(double speed, double speed_rate, const double* forcing) noexcept {
+    position.publish(speed, speed_rate, forcing);
+    orientation.publish(speed, speed_rate, forcing + 3);
   }
 };
 
@@ -68,6 +68,7 @@ PoseDmpParameters checked(const PoseDmpParameters& given) {
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 6, "amplitude");
   detail::require_weights(given.weights, given.options.basis_count, 6);
+  parameters.options.orientation_form = detail::form_for(parameters.options, given.start_error.norm());
   return parameters;
 }
 
@@ -138,7 +139,11 @@ PoseDmp PoseDmp::fit(const PoseDemonstration& demonstration, const DmpOptions& o
 
 PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const DmpOptions& options) {
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
-  const DmpOptions resolved = detail::resolved(options);
+  DmpOptions resolved = detail::resolved(options);
+  double farthest = 0.0;
+  for (const PoseDemonstration& demonstration : demonstrations)
+    farthest = std::max(farthest, detail::largest_log(demonstration.orientation(), resolved.log_branch));
+  resolved.orientation_form = detail::form_for(resolved, farthest);
   std::vector<PoseLesson> lessons;
   for (const PoseDemonstration& demonstration : demonstrations)
     lessons.push_back(lesson_of(demonstration, resolved));
@@ -224,6 +229,10 @@ Status PoseRun::set_goal(const Matrix4d& goal) noexcept {
 }
 
 Status PoseRun::set_duration(double duration) noexcept { return state_->runner.set_duration(duration); }
+Status PoseRun::set_tracking_error(double error) noexcept { return state_->runner.set_tracking_error(error); }
+void PoseRun::pause() noexcept { state_->runner.pause(); }
+void PoseRun::resume() noexcept { state_->runner.resume(); }
+bool PoseRun::paused() const noexcept { return state_->runner.phase().paused(); }
 
 Status PoseRun::start_from(const Matrix4d& pose, const Twist& twist) noexcept {
   if (!is_pose(pose) || !twist.allFinite()) return Status::invalid_input;

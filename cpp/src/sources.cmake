@@ -16,6 +16,7 @@ set(DMP_core_SOURCES
   detail/model_json.cpp
   detail/orientation_motion.cpp
   detail/position_motion.cpp
+  detail/smoothing_fit.cpp
   detail/spring_damper.cpp)
 set(DMP_kinematics_SOURCES
   arm.cpp

@@ -2,41 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
+
+#include "detail/local_basis.hpp"
+#include "detail/smoothing_fit.hpp"
 
 namespace dmp {
 namespace {
 
+using detail::LocalBasis;
 using Eigen::Index;
-
-/// The B-splines that are not zero at a time: of degree p and of the two degrees below, by Cox-de Boor's
-/// recurrence (de Boor 1978, chapter X), which passes through the lower degrees on its way.
-struct LocalBasis {
-  std::array<std::array<double, 6>, 3> values{};  // [d]: degree p - d, p - d + 1 of them
-
-  LocalBasis(const double* knots, Index interval, int degree, double time) {
-    std::array<double, 6> row{1.0};
-    std::array<double, 6> left{};
-    std::array<double, 6> right{};
-    keep(row, degree, 0);
-    for (int j = 1; j <= degree; ++j) {
-      left[j] = time - knots[interval + 1 - j];
-      right[j] = knots[interval + j] - time;
-      double saved = 0.0;
-      for (int r = 0; r < j; ++r) {
-        const double term = row[r] / (right[r + 1] + left[j - r]);
-        row[r] = saved + right[r + 1] * term;
-        saved = left[j - r] * term;
-      }
-      row[j] = saved;
-      keep(row, degree, j);
-    }
-  }
-
- private:
-  void keep(const std::array<double, 6>& row, int degree, int reached) {
-    if (degree - reached < 3) values[degree - reached] = row;
-  }
-};
 
 /// Solves the banded system in place by elimination without pivoting, which is stable for a B-spline
 /// collocation matrix (totally positive: de Boor and Pinkus 1977). band(i, j - i + half) = A(i, j); b becomes
@@ -78,13 +54,26 @@ Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values)
   differentiate();
 }
 
-Index Spline::interval(double time) const noexcept {
-  const auto first = knots_.begin() + degree_;
-  const auto last = knots_.end() - degree_ - 1;
-  const auto above = std::upper_bound(first, last, time);
-  return std::clamp<Index>(above - knots_.begin() - 1, degree_,
-                           static_cast<Index>(knots_.size()) - degree_ - 2);
+Spline::Spline(std::vector<double> knots, RowMatrix coefficients)
+    : degree_(kDegree), knots_(std::move(knots)) {
+  coefficients_[0] = std::move(coefficients);
+  differentiate();
 }
+
+Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report) {
+  if (report) *report = {Eigen::VectorXd::Zero(values.cols()), Eigen::VectorXd::Zero(values.cols())};
+  if (times.size() < 10) return {times, values};
+  detail::SmoothingFit fit(times);
+  Spline spline(fit.knots(), fit.solve(values));
+  if (report) {
+    const RowMatrix residual = values - spline.sample(times).value;
+    report->removed = (residual.colwise().squaredNorm() / static_cast<double>(times.size())).cwiseSqrt();
+    report->noise = report->removed * std::sqrt(static_cast<double>(times.size()) / fit.freedom());
+  }
+  return spline;
+}
+
+Index Spline::interval(double time) const noexcept { return detail::interval_of(knots_, degree_, time); }
 
 void Spline::interpolate(const Eigen::VectorXd& times, const RowMatrix& values) {
   const Index n = times.size();

@@ -48,6 +48,7 @@ void bind_enums(py::module_& m) {
       .finalize();
   py::native_enum<OrientationForm>(m, "OrientationForm", "enum.Enum",
                                    "The equation of motion of orientations.")
+      .value("automatic", OrientationForm::automatic)
       .value("ude", OrientationForm::ude)
       .value("log_linear", OrientationForm::log_linear)
       .finalize();
@@ -59,6 +60,7 @@ void bind_enums(py::module_& m) {
   py::native_enum<Derivatives>(m, "Derivatives", "enum.Enum",
                                "Velocities and accelerations of a demonstration.")
       .value("interpolate", Derivatives::interpolate)
+      .value("smooth", Derivatives::smooth)
       .value("gradient", Derivatives::gradient)
       .finalize();
   py::native_enum<Start>(m, "Start", "enum.Enum", "What a rollout starts with.")
@@ -126,8 +128,11 @@ void bind_options(py::module_& m) {
                      "the forcing term goes on after the duration")
       .def_readwrite("goal_filter", &DmpOptions::goal_filter,
                      "a new goal is approached by tau gd = goal_filter (g* - g)")
-      .def_readwrite("duration_filter", &DmpOptions::duration_filter,
-                     "s, time constant with which a new duration is approached");
+      .def_readwrite(
+          "tempo_filter", &DmpOptions::tempo_filter,
+          "s, time constant with which a change of tempo (duration, pause, phase stop) is approached")
+      .def_readwrite("phase_stop", &DmpOptions::phase_stop,
+                     "k: a tracking error e slows the phase to 1 / (tau (1 + k e))");
   enum_attribute(options, "kernels", &DmpOptions::kernels, "a Kernels or its name");
   enum_attribute(options, "regression", &DmpOptions::regression, "a Regression or its name");
   enum_attribute(options, "scaling", &DmpOptions::scaling, "a Scaling or its name");

@@ -28,27 +28,54 @@ TEST_CASE("twice the duration at twice the step is the same phase, bit for bit")
   }
 }
 
-TEST_CASE("a new duration is approached without a jump and its phase does not depend on the step") {
-  Phase coarse(1.0, 4.6);
-  Phase fine(1.0, 4.6);
-  REQUIRE(coarse.set_duration(3.0, 0.2));
-  REQUIRE(fine.set_duration(3.0, 0.2));
-  CHECK(coarse.duration() == 1.0);
+TEST_CASE("a new duration is approached without a jump, alike whatever the step") {
+  Phase coarse(1.0, 4.6, 0.2);
+  Phase fine(1.0, 4.6, 0.2);
+  REQUIRE(coarse.set_duration(3.0));
+  REQUIRE(fine.set_duration(3.0));
+  CHECK(coarse.speed() == 1.0);
   for (int i = 0; i < 10; ++i) coarse.advance(0.1);
   for (int i = 0; i < 1000; ++i) fine.advance(0.001);
   CHECK(coarse.s() == doctest::Approx(fine.s()).epsilon(1e-12));
-  CHECK(coarse.duration() == doctest::Approx(3.0 - 2.0 * std::exp(-5.0)).epsilon(1e-12));
+  CHECK(coarse.speed() == doctest::Approx(1.0 / 3 + 2.0 / 3 * std::exp(-5.0)).epsilon(1e-12));
+  CHECK(coarse.s() == doctest::Approx(1.0 / 3 + 2.0 / 3 * 0.2 * (1 - std::exp(-5.0))).epsilon(1e-12));
   for (int i = 0; i < 100; ++i) coarse.advance(0.1);
-  CHECK(coarse.duration() == 3.0);
+  CHECK(coarse.speed() == 1.0 / 3);
 }
 
-TEST_CASE("durations that are no durations are refused and change nothing") {
+TEST_CASE("a pause comes to rest where it says and goes on at full speed") {
+  Phase phase(2.0, 4.6, 0.1);
+  phase.advance(0.5);
+  phase.pause();
+  phase.advance(5.0);
+  CHECK(phase.s() == doctest::Approx(0.25 + 0.5 * 0.1).epsilon(1e-9));
+  CHECK(phase.speed() == 0.0);
+  CHECK(phase.time() == 5.5);
+  phase.resume();
+  phase.advance(5.0);
+  CHECK(phase.speed() == 0.5);
+}
+
+TEST_CASE("a tracking error slows the phase to 1 / (tau (1 + k e))") {
+  Phase phase(2.0, 4.6, 0.0, 50.0);
+  CHECK(phase.set_tracking_error(0.02));
+  CHECK(phase.speed() == doctest::Approx(0.25));
+  CHECK(phase.set_tracking_error(0.0));
+  CHECK(phase.speed() == 0.5);
+}
+
+TEST_CASE("what is no duration, error or gain is refused and changes nothing") {
   CHECK_THROWS_AS(Phase(0.0, 1.0), InvalidArgument);
   CHECK_THROWS_AS(Phase(1.0, -1.0), InvalidArgument);
   CHECK_THROWS_AS(Phase(NAN, 1.0), InvalidArgument);
-  Phase phase(1.0, 4.6);
-  CHECK_FALSE(phase.set_duration(-1.0, 0.1));
-  CHECK_FALSE(phase.set_duration(NAN, 0.1));
-  CHECK_FALSE(phase.set_duration(1.0, -0.1));
+  CHECK_THROWS_AS(Phase(1e-320, 1.0), InvalidArgument);
+  CHECK_THROWS_AS(Phase(1.0, 1.0, -0.1), InvalidArgument);
+  CHECK_THROWS_AS(Phase(1.0, 1.0, 0.1, NAN), InvalidArgument);
+  Phase phase(1.0, 4.6, 0.1);
+  CHECK_FALSE(phase.set_duration(-1.0));
+  CHECK_FALSE(phase.set_duration(NAN));
+  CHECK_FALSE(phase.set_tracking_error(-0.1));
+  CHECK_FALSE(phase.set_tracking_error(INFINITY));
   CHECK(phase.duration() == 1.0);
+  CHECK(phase.speed() == 1.0);
 }

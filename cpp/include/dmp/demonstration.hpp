@@ -29,7 +29,12 @@ class DMP_EXPORT Demonstration {
   /// Position, velocity and acceleration on the spline at times (n) in s from the start.
   Trajectory at(const Eigen::VectorXd& times) const;
 
+  /// The same motion on the smoothing spline (Spline::smoothing): the noise is found in the data and taken
+  /// out.
+  Demonstration smoothed(Smoothing* report = nullptr) const;
+
  private:
+  Demonstration(Eigen::VectorXd time, RowMatrix position, Spline spline);
   Eigen::VectorXd time_;
   RowMatrix position_;
   Spline spline_;
@@ -55,7 +60,12 @@ class DMP_EXPORT OrientationDemonstration {
   /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start.
   OrientationTrajectory at(const Eigen::VectorXd& times) const;
 
+  /// The same motion with its quaternions on the smoothing spline, renormalised. The report has one number
+  /// each, in rad about every axis.
+  OrientationDemonstration smoothed(Smoothing* report = nullptr) const;
+
  private:
+  OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline);
   Eigen::VectorXd time_;
   Rotations rotation_;
   Spline spline_;
@@ -73,8 +83,11 @@ class DMP_EXPORT PoseDemonstration {
   Poses pose() const;                                                        ///< (T)
   const Demonstration& position() const noexcept { return position_; }
   const OrientationDemonstration& orientation() const noexcept { return orientation_; }
+  /// Both parts smoothed.
+  PoseDemonstration smoothed(Smoothing* position = nullptr, Smoothing* orientation = nullptr) const;
 
  private:
+  PoseDemonstration(Demonstration position, OrientationDemonstration orientation);
   Demonstration position_;
   OrientationDemonstration orientation_;
 };

@@ -87,8 +87,14 @@ class DMP_EXPORT Run {
   Status step(double dt) noexcept DMP_REALTIME;
   /// The goal (d) to go to from now on, approached through DmpOptions::goal_filter.
   Status set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept DMP_REALTIME;
-  /// The duration (s) of the whole motion from now on; the path stays the same. DmpOptions::duration_filter.
+  /// The duration (s) of the whole motion from now on; the path stays the same. DmpOptions::tempo_filter.
   Status set_duration(double duration) noexcept DMP_REALTIME;
+  /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
+  Status set_tracking_error(double error) noexcept DMP_REALTIME;
+  /// Comes to rest on the path, and goes on from there; both through DmpOptions::tempo_filter.
+  void pause() noexcept DMP_REALTIME;
+  void resume() noexcept DMP_REALTIME;
+  bool paused() const noexcept DMP_REALTIME;
   /// Begins anew at position (d) with velocity (d, per s), at the goal and duration that were set last.
   Status start_from(const Eigen::Ref<const Eigen::VectorXd>& position,
                     const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept DMP_REALTIME;
@@ -101,7 +107,7 @@ class DMP_EXPORT Run {
   const Eigen::VectorXd& goal() const noexcept DMP_REALTIME;          ///< (d) the one set last
   double time() const noexcept DMP_REALTIME;                          ///< s since the start
   double phase() const noexcept DMP_REALTIME;                         ///< 0 at the start, 1 at the end
-  double duration() const noexcept DMP_REALTIME;                      ///< s
+  double duration() const noexcept DMP_REALTIME;                      ///< s, the one set last
   Status status() const noexcept DMP_REALTIME;
 
  private:

@@ -22,7 +22,9 @@ enum class Scaling {
 };
 
 /// The equation of motion of orientations; see OrientationDmp.
-enum class OrientationForm { ude, log_linear };
+/// automatic: ude for a demonstration that stays within 3 rad of its goal, where its spring is stable;
+/// log_linear beyond.
+enum class OrientationForm { automatic, ude, log_linear };
 
 /// What a rollout starts with: the velocity that was demonstrated, or rest.
 enum class Start { demonstrated, rest };
@@ -32,7 +34,7 @@ enum class Integrator { exact, semi_implicit_euler };
 
 /// Velocities and accelerations of a demonstration: of its quintic spline, or second-order differences taken
 /// twice.
-enum class Derivatives { interpolate, gradient };
+enum class Derivatives { interpolate, smooth, gradient };
 
 /// Log(Rg R^T): followed through pi and 2 pi, or the shortest rotation at every moment.
 enum class LogBranch { lifted, principal };
@@ -51,14 +53,16 @@ struct DmpOptions {
   int passes = 10;       ///< of locally weighted regression; 1 is the textbook's
   double ridge = 1e-12;  ///< times trace / N on the diagonal
   Scaling scaling = Scaling::none;
-  OrientationForm orientation_form = OrientationForm::ude;
+  OrientationForm orientation_form = OrientationForm::automatic;
   LogBranch log_branch = LogBranch::lifted;
   Derivatives derivatives = Derivatives::interpolate;
   Start start = Start::demonstrated;
   Integrator integrator = Integrator::exact;
   bool force_after_end = false;  ///< the forcing term goes on after the duration
   double goal_filter = 25.0;     ///< alpha_g: a new goal is approached by tau gd = alpha_g (g* - g)
-  double duration_filter = 0.1;  ///< s, time constant with which a new duration is approached
+  double tempo_filter =
+      0.1;  ///< s, time constant with which a change of tempo (duration, pause, phase stop) is approached
+  double phase_stop = 0.0;  ///< k: a tracking error e slows the phase to sd = 1 / (tau (1 + k e))
 
   /// The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended:
   /// docs/formulation.md.

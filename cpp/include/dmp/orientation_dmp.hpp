@@ -88,6 +88,12 @@ class DMP_EXPORT OrientationRun {
   /// Refused (invalid_input) unless the matrix is a rotation to 1e-6.
   Status set_goal(const Eigen::Matrix3d& goal) noexcept DMP_REALTIME;
   Status set_duration(double duration) noexcept DMP_REALTIME;
+  /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
+  Status set_tracking_error(double error) noexcept DMP_REALTIME;
+  /// Comes to rest on the path, and goes on from there; both through DmpOptions::tempo_filter.
+  void pause() noexcept DMP_REALTIME;
+  void resume() noexcept DMP_REALTIME;
+  bool paused() const noexcept DMP_REALTIME;
   /// angular_velocity: rad/s, world frame.
   Status start_from(const Eigen::Matrix3d& rotation,
                     const Eigen::Vector3d& angular_velocity) noexcept DMP_REALTIME;

@@ -7,37 +7,56 @@ namespace dmp {
 
 /// The canonical system: tau sd = 1 and tau xd = -alpha_x x, x = exp(-alpha_x s) (Ijspeert et al. 2013,
 /// Neural Computation 25(2), canonical system; tau is the duration in s). s runs from 0 to 1 over the motion
-/// and on beyond it. The duration may change at any time: it is then followed through a first-order filter,
-/// so that velocities do not jump, and the path y(s) is kept exactly.
+/// and on beyond it.
+///
+/// All that changes the tempo on the way (another duration, a tracking error, a pause) sets the speed that sd
+/// goes to, through one first-order filter: velocities do not jump, and the path y(s) is kept exactly. A
+/// tracking error e slows the phase to sd = 1 / (tau (1 + k e)) (phase stopping; Ijspeert et al. 2013), and
+/// the spring and damper with it.
 class DMP_EXPORT Phase {
  public:
-  /// Throws InvalidArgument unless duration [s] and alpha_x are finite and positive.
-  Phase(double duration, double alpha_x);
+  /// `filter` is the time constant in s of changes of tempo, 0 for jumps; `stop_gain` is k. Throws
+  /// InvalidArgument unless duration [s] and alpha_x are finite and positive, filter and stop_gain finite and
+  /// not negative.
+  Phase(double duration, double alpha_x, double filter = 0.0, double stop_gain = 0.0);
 
   double s() const noexcept DMP_REALTIME { return s_; }
   double x() const noexcept DMP_REALTIME;
   /// Time since the start, s; pauses count.
   double time() const noexcept DMP_REALTIME { return time_; }
-  /// tau as it is now, s, and d tau / dt.
+  /// tau as it was set last, s.
   double duration() const noexcept DMP_REALTIME { return tau_; }
-  double duration_rate() const noexcept DMP_REALTIME;
+  /// ds/dt as it is now, 1/s, and its rate of change, 1/s^2.
+  double speed() const noexcept DMP_REALTIME { return speed_; }
+  double speed_rate() const noexcept DMP_REALTIME;
 
-  /// The duration to go to; `filter` is the filter's time constant in s, 0 for a jump.
-  /// False, and nothing changes, unless both are finite, duration positive and filter not negative.
-  bool set_duration(double duration, double filter) noexcept DMP_REALTIME;
+  /// False, and nothing changes, unless finite and positive.
+  bool set_duration(double duration) noexcept DMP_REALTIME;
+  /// The distance e >= 0 between where the robot is and where it should be, in any unit; see stop_gain.
+  /// False, and nothing changes, unless finite and not negative.
+  bool set_tracking_error(double error) noexcept DMP_REALTIME;
+  void pause() noexcept DMP_REALTIME;
+  void resume() noexcept DMP_REALTIME;
+  bool paused() const noexcept DMP_REALTIME { return paused_; }
 
-  /// How far s will go in dt seconds: the integral of dt / tau.
+  /// How far s will go in dt seconds.
   double increment(double dt) const noexcept DMP_REALTIME;
-  /// Moves time, tau and s on by dt.
+  /// Moves time, speed and s on by dt.
   void advance(double dt) noexcept DMP_REALTIME;
-  /// Back to the start, at the duration that was set last.
+  /// Back to the start and to full speed, at the duration that was set last.
   void reset() noexcept DMP_REALTIME;
 
  private:
+  void retarget() noexcept;
+
   double alpha_x_;
+  double filter_;
+  double stop_gain_;
   double tau_;
-  double target_tau_;
-  double filter_ = 0.0;
+  double error_ = 0.0;
+  bool paused_ = false;
+  double speed_;
+  double target_speed_;
   double s_ = 0.0;
   double time_ = 0.0;
 };

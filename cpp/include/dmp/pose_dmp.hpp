@@ -70,6 +70,12 @@ class DMP_EXPORT PoseRun {
   /// Refused (invalid_input) unless finite, with a rotation (to 1e-6) and the last row 0 0 0 1.
   Status set_goal(const Eigen::Matrix4d& goal) noexcept DMP_REALTIME;
   Status set_duration(double duration) noexcept DMP_REALTIME;
+  /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
+  Status set_tracking_error(double error) noexcept DMP_REALTIME;
+  /// Comes to rest on the path, and goes on from there; both through DmpOptions::tempo_filter.
+  void pause() noexcept DMP_REALTIME;
+  void resume() noexcept DMP_REALTIME;
+  bool paused() const noexcept DMP_REALTIME;
   /// twist: linear velocity of the origin [m/s], angular velocity [rad/s], world frame.
   Status start_from(const Eigen::Matrix4d& pose,
                     const Eigen::Matrix<double, 6, 1>& twist) noexcept DMP_REALTIME;

@@ -48,7 +48,7 @@ RowMatrix gradient(const VectorXd& t, const RowMatrix& y) {
 }
 
 Trajectory looked_at(const Demonstration& demonstration, const DmpOptions& options) {
-  if (options.derivatives == Derivatives::interpolate)
+  if (options.derivatives != Derivatives::gradient)
     return demonstration.at(fit_times(demonstration.time(), options));
   const VectorXd& time = demonstration.time();
   const RowMatrix velocity = gradient(time, demonstration.position());
@@ -68,7 +68,7 @@ RowMatrix difference_velocity(const VectorXd& t, const Rotations& r) {
 }
 
 OrientationTrajectory looked_at(const OrientationDemonstration& demonstration, const DmpOptions& options) {
-  if (options.derivatives == Derivatives::interpolate)
+  if (options.derivatives != Derivatives::gradient)
     return demonstration.at(fit_times(demonstration.time(), options));
   const VectorXd& time = demonstration.time();
   const RowMatrix omega = difference_velocity(time, demonstration.rotation());
@@ -99,7 +99,7 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
                               const DmpOptions& options) {
   const double alpha = *options.orientation_alpha;
   const double beta = *options.orientation_beta;
-  if (options.orientation_form == OrientationForm::ude)
+  if (options.orientation_form != OrientationForm::log_linear)
     return forcing_of(tau, alpha, beta, motion.angular_acceleration, errors, motion.angular_velocity);
   const Spline::Samples p = Spline(motion.time, -errors).sample(motion.time);
   return forcing_of(tau, alpha, beta, p.second, errors, p.first);
@@ -127,8 +127,22 @@ DmpOptions resolved(const DmpOptions& options) {
   require_positive(*result.overlap, "overlap");
   require_not_negative(result.ridge, "ridge");
   require_not_negative(result.goal_filter, "goal_filter");
-  require_not_negative(result.duration_filter, "duration_filter");
+  require_not_negative(result.tempo_filter, "tempo_filter");
+  require_not_negative(result.phase_stop, "phase_stop");
   return result;
+}
+
+double largest_log(const OrientationDemonstration& demonstration, LogBranch branch) {
+  return errors_to_goal(demonstration.rotation(), branch).rowwise().norm().maxCoeff();
+}
+
+OrientationForm form_for(const DmpOptions& options, double largest_log) {
+  if (options.orientation_form != OrientationForm::automatic) return options.orientation_form;
+  // Beyond pi the spring of the UDE form pushes away across the axis; the log-linear one is stable
+  // everywhere.
+  constexpr double kFar = 3.0;
+  const bool far = options.log_branch == LogBranch::lifted && largest_log > kFar;
+  return far ? OrientationForm::log_linear : OrientationForm::ude;
 }
 
 GaussianBasis basis_of(const DmpOptions& options) {
@@ -142,7 +156,8 @@ VectorXd fit_times(const VectorXd& time, const DmpOptions& options) {
   return VectorXd::LinSpaced(wanted, 0.0, time[time.size() - 1]);
 }
 
-PositionLesson lesson_of(const Demonstration& demonstration, const DmpOptions& options) {
+PositionLesson lesson_of(const Demonstration& given, const DmpOptions& options) {
+  const Demonstration demonstration = options.derivatives == Derivatives::smooth ? given.smoothed() : given;
   const Trajectory motion = looked_at(demonstration, options);
   const double tau = demonstration.duration();
   PositionLesson lesson;
@@ -159,7 +174,9 @@ PositionLesson lesson_of(const Demonstration& demonstration, const DmpOptions& o
   return lesson;
 }
 
-OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const DmpOptions& options) {
+OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOptions& options) {
+  const OrientationDemonstration demonstration =
+      options.derivatives == Derivatives::smooth ? given.smoothed() : given;
   const OrientationTrajectory motion = looked_at(demonstration, options);
   const double tau = demonstration.duration();
   const RowMatrix errors = errors_to_goal(motion.rotation, options.log_branch);

@@ -12,6 +12,13 @@ namespace dmp::detail {
 /// Options with every optional one filled in. Throws InvalidArgument for one outside its range.
 DmpOptions resolved(const DmpOptions& options);
 
+/// The largest |Log(Rg R^T)| on the way, rad.
+double largest_log(const OrientationDemonstration& demonstration, LogBranch branch);
+
+/// The form of the equation for demonstrations whose largest logarithm is as given; see
+/// OrientationForm::automatic.
+OrientationForm form_for(const DmpOptions& options, double largest_log);
+
 GaussianBasis basis_of(const DmpOptions& resolved);
 
 /// Where a demonstration is looked at: at its samples, or, where they are few for the kernels, on the spline

@@ -30,10 +30,12 @@ const Names<Scaling> kScaling{{Scaling::none, "none"},
                               {Scaling::per_axis, "per_axis"},
                               {Scaling::per_axis_relative, "per_axis_relative"},
                               {Scaling::rotation_dilation, "rotation_dilation"}};
-const Names<OrientationForm> kForm{{OrientationForm::ude, "ude"},
+const Names<OrientationForm> kForm{{OrientationForm::automatic, "automatic"},
+                                   {OrientationForm::ude, "ude"},
                                    {OrientationForm::log_linear, "log_linear"}};
 const Names<LogBranch> kBranch{{LogBranch::lifted, "lifted"}, {LogBranch::principal, "principal"}};
 const Names<Derivatives> kDerivatives{{Derivatives::interpolate, "interpolate"},
+                                      {Derivatives::smooth, "smooth"},
                                       {Derivatives::gradient, "gradient"}};
 const Names<Start> kStart{{Start::demonstrated, "demonstrated"}, {Start::rest, "rest"}};
 const Names<Integrator> kIntegrator{{Integrator::exact, "exact"},
@@ -165,7 +167,8 @@ Json to_json(const DmpOptions& o) {
           {"integrator", name_of(o.integrator, kIntegrator)},
           {"force_after_end", o.force_after_end},
           {"goal_filter", o.goal_filter},
-          {"duration_filter", o.duration_filter}};
+          {"tempo_filter", o.tempo_filter},
+          {"phase_stop", o.phase_stop}};
 }
 
 DmpOptions options_at(const Json& model) {
@@ -194,7 +197,8 @@ DmpOptions options_at(const Json& model) {
   o.integrator = enum_at(at("integrator"), place("integrator"), kIntegrator);
   o.force_after_end = boolean_at(at("force_after_end"), place("force_after_end"));
   o.goal_filter = value("goal_filter");
-  o.duration_filter = value("duration_filter");
+  o.tempo_filter = value("tempo_filter");
+  o.phase_stop = value("phase_stop");
   return o;
 }
 

@@ -166,9 +166,9 @@ void OrientationMotion::advance_euler(double step, const double* end) noexcept {
   e_ = error(goal_, q_);
 }
 
-void OrientationMotion::publish(double tau, double tau_rate, const double* forcing) noexcept {
+void OrientationMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
   rotation_ = q_;
-  velocity_ = eta_ / tau;
+  velocity_ = eta_ * speed;
   Vector3d change = acceleration(e_, eta_, scaled(forcing, 3));
   if (form_ == OrientationForm::log_linear) {
     // omega' = J_l z' + J_l' z, the second by a difference quotient along p' = z
@@ -180,7 +180,7 @@ void OrientationMotion::publish(double tau, double tau_rate, const double* forci
     const Vector3d turning = (so3::left_jacobian(p + h * z) - so3::left_jacobian(p - h * z)) * z / (2.0 * h);
     change = so3::left_jacobian(p) * zs + turning;
   }
-  acceleration_ = (change - eta_ * tau_rate) / (tau * tau);
+  acceleration_ = change * (speed * speed) + eta_ * speed_rate;
 }
 
 }  // namespace dmp::detail

@@ -27,7 +27,7 @@ class OrientationMotion {
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
   bool finite() const noexcept { return q_.coeffs().allFinite() && eta_.allFinite(); }
-  void publish(double tau, double tau_rate, const double* forcing) noexcept;
+  void publish(double speed, double speed_rate, const double* forcing) noexcept;
 
   const Eigen::Quaterniond& rotation() const noexcept { return rotation_; }
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }

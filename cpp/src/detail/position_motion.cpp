@@ -100,13 +100,13 @@ void PositionMotion::advance_euler(double step, const double* end) noexcept {
   }
 }
 
-void PositionMotion::publish(double tau, double tau_rate, const double* forcing) noexcept {
+void PositionMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
   const double* force = scaled(forcing, 2);
   for (Index d = 0; d < y_.size(); ++d) {
     const double zs = spring_.stiffness() * (goal_[d] - y_[d]) - spring_.alpha() * z_[d] + force[d];
     position_[d] = y_[d];
-    velocity_[d] = z_[d] / tau;
-    acceleration_[d] = (zs - z_[d] * tau_rate) / (tau * tau);
+    velocity_[d] = z_[d] * speed;
+    acceleration_[d] = zs * speed * speed + z_[d] * speed_rate;
   }
 }
 

@@ -32,8 +32,9 @@ class PositionMotion {
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
   bool finite() const noexcept { return y_.allFinite() && z_.allFinite(); }
-  /// Velocity and acceleration at duration tau that changes at tau_rate; `forcing` is the term as it is now.
-  void publish(double tau, double tau_rate, const double* forcing) noexcept;
+  /// Velocity and acceleration while the phase goes at `speed` (ds/dt) and speeds up at `speed_rate`;
+  /// `forcing` is the term as it is now.
+  void publish(double speed, double speed_rate, const double* forcing) noexcept;
 
   const Eigen::VectorXd& position() const noexcept { return position_; }
   const Eigen::VectorXd& velocity() const noexcept { return velocity_; }

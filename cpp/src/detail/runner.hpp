@@ -23,13 +23,12 @@ class Runner {
   /// `forcing` must outlive the runner.
   Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, Motion motion)
       : forcing_(&forcing),
-        phase_(duration, options.alpha_x),
+        phase_(duration, options.alpha_x, options.tempo_filter, options.phase_stop),
         motion_(std::move(motion)),
         nodes_(RowMatrix::Zero(3, forcing.padded_dimension())),
         psi_(forcing.basis().window_capacity()),
         divides_(options.integrator == Integrator::exact),
         force_after_end_(options.force_after_end),
-        duration_filter_(options.duration_filter),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
     publish();
   }
@@ -50,11 +49,15 @@ class Runner {
     return status_ = phase_.s() >= 1.0 - kRounding ? Status::finished : Status::running;
   }
 
-  Status set_duration(double duration) noexcept {
-    return phase_.set_duration(duration, duration_filter_) ? status_ : Status::invalid_input;
-  }
+  Status set_duration(double duration) noexcept { return accepted(phase_.set_duration(duration)); }
+  Status set_tracking_error(double error) noexcept { return accepted(phase_.set_tracking_error(error)); }
+  void pause() noexcept { phase_.pause(); }
+  void resume() noexcept { phase_.resume(); }
   /// Before the first step: the duration at once, without the filter.
-  bool start_with_duration(double duration) noexcept { return phase_.set_duration(duration, 0.0); }
+  void start_with_duration(double duration) noexcept {
+    phase_.set_duration(duration);
+    phase_.reset();
+  }
 
   /// The phase at its start; then put the motion there and call restart().
   void reset_phase() noexcept { phase_.reset(); }
@@ -70,7 +73,7 @@ class Runner {
     const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
     evaluate(kEnd, phase_.s(), on);
     evaluated_at_ = on ? phase_.s() : -1.0;
-    motion_.publish(phase_.duration(), phase_.duration_rate(), node(kEnd));
+    motion_.publish(phase_.speed(), phase_.speed_rate(), node(kEnd));
   }
 
  private:
@@ -82,6 +85,7 @@ class Runner {
     return std::max({options.alpha, *options.orientation_alpha, options.goal_filter});
   }
 
+  Status accepted(bool accepted) const noexcept { return accepted ? status_ : Status::invalid_input; }
   double* node(Node which) noexcept { return nodes_.row(which).data(); }
 
   void evaluate(Node which, double s, bool on) noexcept {
@@ -128,7 +132,6 @@ class Runner {
   double evaluated_at_ = -1.0;  // the phase whose forcing stands in the last node
   bool divides_;
   bool force_after_end_;
-  double duration_filter_;
   double largest_step_;
   Status status_ = Status::running;
 };

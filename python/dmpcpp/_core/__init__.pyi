@@ -322,12 +322,12 @@ class DmpOptions:
     def derivatives(self, arg1: typing.Any) -> None:
         ...
     @property
-    def duration_filter(self) -> float:
+    def tempo_filter(self) -> float:
         """
         s, time constant with which a new duration is approached
         """
-    @duration_filter.setter
-    def duration_filter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+    @tempo_filter.setter
+    def tempo_filter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
     @property
     def force_after_end(self) -> bool:
