@@ -190,3 +190,10 @@ def test_refining_keeps_the_samples_and_fills_what_lies_far_apart():
     assert len(motion.refine(fine, distance=1.0, angle=1.0)) == len(fine)
     with pytest.raises(InvalidArgument, match="distance: 0, expected a positive number"):
         motion.refine(coarse, distance=0, angle=0.1)
+
+
+def test_a_recording_becomes_a_demonstration_to_learn_from():
+    recording = screw()
+    demonstration = motion.demonstration(recording)
+    np.testing.assert_array_equal(demonstration.time, recording.time)
+    np.testing.assert_allclose(demonstration.pose, motion.poses(recording), atol=1e-12)

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from dmpcpp import motion
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
+from dmpcpp import arms, motion
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, duration_factor
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Axis, Recording
 from dmpcpp.retarget.placement import Placement
@@ -26,10 +27,12 @@ __all__ = ["place"]
 
 _CLOUD = 20_000  # random configurations whose tip positions tell where the arm reaches
 _COARSE = 24  # poses that stand for the motion in the first tests
-_FOLLOWED = 150  # candidates that are followed from end to end at most
+_FOLLOWED = 300  # candidates that are followed from end to end at most
 _ENOUGH = 8  # of them carried; no further ones are followed
+_MORE = 10  # times as many candidates, if none of the first is carried
 _EFFORT = {"starts": 8, "anchors": 3}  # of the search for joints along one candidate's path
-_IMPROVEMENTS = 300  # small changes tried on the best one
+_IMPROVEMENTS = 300  # small changes tried on the best one; fewer on a long path:
+_IMPROVING_POSES = 100_000  # that are followed meanwhile, about
 _STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
 _STEP_ANGLE = 0.1  # rad, likewise
 _FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
@@ -61,7 +64,7 @@ def place(
     floor : float
         m, the lowest height of the tip above the base; leave room for what the tip carries.
     candidates : int
-        How many random placements are tried.
+        How many random placements are tried; ten times as many if none of them carries the motion.
     accept : JointTrajectory -> bool, optional
         A last word on joints that carry the whole motion, for what kinematics does not see: an arm that
         touches itself, for instance.
@@ -84,6 +87,13 @@ def place(
     search = _Search(recording, arm, floor, accept)
     random = np.random.default_rng(seed)
     found = search.carried(search.promising(random, scale, candidates))
+    if not found:
+        found = search.carried(search.promising(random, scale, _MORE * candidates))
+    if not found:
+        raise InvalidArgument(
+            f"recording: no placement found with which arm {arm.name!r} carries the whole motion; "
+            f"{search.shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
+        )
     best = search.improved(max(found, key=lambda carried: carried.worth), random, scale)
     note = f"carries all {len(recording)} samples, {best.summary} ({candidates} candidates, seed {seed})"
     if recording.up_axis is None:
@@ -97,7 +107,7 @@ class _Carried:
 
     placement: Placement
     limit_margin: float  # rad, smallest distance from a joint limit
-    slowdown: float  # factor on the duration that the joints' velocity limits ask for
+    slowdown: float  # factor on the duration that the limits of joint velocity and acceleration ask for
 
     @property
     def worth(self) -> float:
@@ -109,7 +119,7 @@ class _Carried:
     def summary(self) -> str:
         return (
             f"joints at least {np.degrees(self.limit_margin):.1f} deg within their limits, "
-            f"velocities {self.slowdown:.2f} x their limits at the recorded speed"
+            f"{self.slowdown:.2f} x the recorded duration by their velocity and acceleration limits"
         )
 
 
@@ -133,49 +143,36 @@ class _Search:
         # Poses out of reach would spend all of the default's iterations, and most candidates have some.
         self.quick_solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
         self.closest: Placement | None = None  # by a look at its positions
-        self.closest_share = 0.0
         self.most_carried = 0.0
 
     def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
-        """Return the candidates of which every coarse pose can be solved, the largest first."""
+        """Return the largest candidates of which every coarse pose can be solved, the largest first."""
         joints = _random_joints(self.arm, random, _CLOUD)
         reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
         # Twice the usual distance between neighbours in the cloud: closer than that, the arm reaches.
         near = 2.0 * float(np.median(reached.query(reached.data[:500], k=2)[0][:, 1]))
-        able = []
-        for placement in self._candidates(random, scale, count):
-            share = self._share_near(placement, reached, near)
-            if share > self.closest_share:
-                self.closest, self.closest_share = placement, share
-            if share == 1.0 and self._above_floor(placement) and self._solves(placement):
-                able.append(placement)
-        return sorted(able, key=lambda placement: -placement.scale)
+        candidates = list(self._candidates(random, scale, count))
+        shares = [self._share_near(placement, reached, near) for placement in candidates]
+        self.closest = candidates[int(np.argmax(shares))]
+        within = [placement for placement, share in zip(candidates, shares, strict=True) if share == 1.0]
+        within.sort(key=lambda placement: -placement.scale)
+        able = (placement for placement in within if self._above_floor(placement) and self._solves(placement))
+        return list(islice(able, _FOLLOWED))
 
     def carried(self, promising: list[Placement]) -> list[_Carried]:
-        """Follow one after the other until enough are carried from end to end and accepted.
-
-        Raises
-        ------
-        InvalidArgument
-            There is none.
-        """
+        """Follow one after the other until enough are carried from end to end and accepted."""
         found: list[_Carried] = []
-        for placement in promising[:_FOLLOWED]:
+        for placement in promising:
             start = self._start(placement)
             carried = self._carry(placement, start) if start is not None else None
             found += [carried] if carried else []
             if len(found) == _ENOUGH:
                 break
-        if found:
-            return found
-        raise InvalidArgument(
-            f"recording: no placement found with which arm {self.arm.name!r} carries the whole motion; "
-            f"{self._shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
-        )
+        return found
 
     def improved(self, best: _Carried, random: np.random.Generator, scale: tuple[float, float]) -> _Carried:
         """Return the best after small random changes, growing smaller."""
-        for step in np.geomspace(1.0, 0.1, _IMPROVEMENTS):
+        for step in np.geomspace(1.0, 0.1, min(_IMPROVEMENTS, 1 + _IMPROVING_POSES // len(self.poses))):
             placement = _changed(best.placement, random, step, scale)
             nearby = placement.start + random.normal(0.0, 0.2 * step, self.arm.joint_count)
             held = self.solver.solve(placement.apply(self.poses[0]), nearby)
@@ -183,7 +180,8 @@ class _Search:
                 best = self._carry(placement, held.joints, better_than=best.worth) or best
         return best
 
-    def _shortfall(self) -> str:
+    def shortfall(self) -> str:
+        """Return what the best placement lacks, for an error."""
         if self.most_carried == 1.0:
             return "what the joints could follow was not accepted"
         if self.closest is not None:
@@ -230,7 +228,8 @@ class _Search:
         joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start)
         report = joints.report
         placement = replace(placement, start=start)
-        carried = _Carried(placement, report.limit_margin, report.velocity_ratio)
+        slowdown = duration_factor(joints, self.arm.velocity_limit, arms.acceleration_limit(self.arm))
+        carried = _Carried(placement, report.limit_margin, slowdown)
         if not report.complete or carried.worth <= better_than:
             return None
         return carried if self.accept is None or self.accept(joints) else None
