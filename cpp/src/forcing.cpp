@@ -2,8 +2,10 @@
 #include <dmp/forcing.hpp>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace dmp {
@@ -77,17 +79,35 @@ class NormalEquations {
   }
 
   RowMatrix solve_ridge(double ridge) const {
+    if (gram_.col(0).sum() == 0.0) return RowMatrix::Zero(right_.rows(), right_.cols());
+    return with_ridge(ridge).selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd(right_));
+  }
+
+  /// Largest over smallest eigenvalue of D^-1/2 G D^-1/2 (locally weighted regression, D the norms) or G +
+  /// ridge.
+  double condition(double ridge) const {
+    Eigen::MatrixXd full = with_ridge(local_ ? 0.0 : ridge);
+    if (local_) {
+      const VectorXd scale = norm_.cwiseSqrt().cwiseInverse();
+      full = scale.asDiagonal() * full * scale.asDiagonal();
+    }
+    const VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full, Eigen::EigenvaluesOnly).eigenvalues();
+    constexpr double kSmallest = std::numeric_limits<double>::epsilon();
+    return values.maxCoeff() / std::max(values.minCoeff(), kSmallest * values.maxCoeff());
+  }
+
+ private:
+  /// The lower triangle of the Gram matrix with the ridge on its diagonal.
+  Eigen::MatrixXd with_ridge(double ridge) const {
     const Index n = gram_.rows();
     Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
     for (Index i = 0; i < n; ++i)
       for (Index k = 0; k < std::min(gram_.cols(), n - i); ++k) full(i + k, i) = gram_(i, k);
-    const double trace = full.diagonal().sum();
-    if (trace == 0.0) return RowMatrix::Zero(n, right_.cols());
-    full.diagonal().array() += ridge * trace / static_cast<double>(n);
-    return full.selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd(right_));
+    full.diagonal().array() += ridge * full.diagonal().sum() / static_cast<double>(n);
+    return full;
   }
 
- private:
   void add_sample(const GaussianBasis::Window& window, double factor, const Eigen::RowVectorXd& value) {
     for (int a = 0; a < window.count; ++a) {
       const Index rest = window.count - a;
@@ -190,6 +210,15 @@ RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarge
   for (Index axis = 0; axis < dimension; ++axis)
     weights.col(axis) = fit_axes(basis, targets, options, axis, 1);
   return weights;
+}
+
+double regression_condition(const GaussianBasis& basis, const DmpOptions& options) {
+  const Index samples = 10 * basis.count() + 1;
+  const ForcingTarget even{VectorXd::LinSpaced(samples, 0.0, 1.0), RowMatrix::Zero(samples, 1),
+                           VectorXd::Ones(1)};
+  NormalEquations equations(basis, 1, options.regression == Regression::lwr);
+  equations.add(even, 0, 1.0);
+  return equations.condition(options.ridge);
 }
 
 }  // namespace dmp

@@ -1,9 +1,11 @@
 # The sources of each library; paths relative to this folder.
 set(DMP_core_SOURCES
+  average.cpp
   basis.cpp
   demonstration.cpp
   dmp.cpp
   file.cpp
+  fit_report.cpp
   forcing.cpp
   options.cpp
   orientation_dmp.cpp
@@ -11,6 +13,7 @@ set(DMP_core_SOURCES
   pose_dmp.cpp
   so3.cpp
   spline.cpp
+  spread.cpp
   detail/forcing_scale.cpp
   detail/learning.cpp
   detail/model_json.cpp

@@ -89,6 +89,11 @@ void bind_orientation_demonstration(py::module_& m) {
           py::arg("times"),
           "Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the "
           "start.")
+      .def(
+          "smoothed", [](const O& d) { return d.smoothed(); },
+          "The same motion on the smoothing spline: the noise is found in the data (generalised "
+          "cross-validation) and "
+          "taken out; see assess().")
       .def("__len__", &O::size);
 }
 
@@ -114,6 +119,11 @@ void bind_demonstration(py::module_& m) {
           "at", [](const Demonstration& d, const Array& times) { return d.at(to_vector(times, "times")); },
           py::arg("times"),
           "Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.")
+      .def(
+          "smoothed", [](const Demonstration& d) { return d.smoothed(); },
+          "The same motion on the smoothing spline: the noise is found in the data (generalised "
+          "cross-validation) and taken "
+          "out; see assess().")
       .def("__len__", &Demonstration::size);
   bind_orientation_demonstration(m);
   py::class_<PoseDemonstration>(m, "PoseDemonstration", "Poses over time as they were recorded.")
@@ -131,6 +141,11 @@ void bind_demonstration(py::module_& m) {
       .def_property_readonly("position", &PoseDemonstration::position)
       .def_property_readonly("orientation", &PoseDemonstration::orientation)
       .def_property_readonly("duration", &PoseDemonstration::duration, "s")
+      .def(
+          "smoothed", [](const PoseDemonstration& d) { return d.smoothed(); },
+          "The same motion on the smoothing spline: the noise is found in the data (generalised "
+          "cross-validation) and taken "
+          "out; see assess().")
       .def("__len__", &PoseDemonstration::size);
 }
 

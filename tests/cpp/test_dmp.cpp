@@ -268,6 +268,31 @@ TEST_CASE("a duration that changes on the way keeps the path") {
   }
 }
 
+TEST_CASE("a pause stops on the path and the motion goes on from there; a tracking error slows it") {
+  DmpParameters p = Dmp::fit(helix(400, 2.0, .1, .2, 1)).parameters();
+  p.options.phase_stop = 100.0;
+  const Dmp dmp(p);
+  const Trajectory path = dmp.rollout({}, {}, 1e-4);
+  Run run(dmp);
+  for (int i = 0; i < 6000; ++i) {
+    if (i == 500) run.pause();
+    if (i == 2000) run.resume();
+    if (i == 2500) run.set_tracking_error(.02);
+    if (i == 3000) run.set_tracking_error(0.0);
+    const Eigen::VectorXd velocity = run.velocity();
+    run.step(1e-3);
+    CHECK((run.velocity() - velocity).norm() < .02);
+    if (i == 1999) CHECK(run.velocity().norm() < 1e-6);
+    if (i == 2999) CHECK(run.velocity().norm() < .5 * path.velocity.rowwise().norm().maxCoeff());
+    if (run.phase() >= 1.0) break;
+    const auto k = static_cast<Eigen::Index>(std::lround(run.phase() * 20000));
+    CHECK((run.position().transpose() - path.position.row(k)).norm() < 1e-4);
+  }
+  CHECK(run.status() == Status::finished);
+  CHECK(run.time() > 3.5);
+  CHECK(run.set_tracking_error(-1.0) == Status::invalid_input);
+}
+
 TEST_CASE("a run may begin anywhere, with any velocity") {
   const Dmp dmp = Dmp::fit(reach(300, 2.0));
   Run run(dmp);

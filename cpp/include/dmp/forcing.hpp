@@ -52,4 +52,8 @@ struct ForcingTarget {
 DMP_EXPORT RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
                                  const DmpOptions& options);
 
+/// The condition number of the matrix that fit_forcing solves with (ridge) or descends on (locally weighted
+/// regression), for samples spread evenly over the phase.
+DMP_EXPORT double regression_condition(const GaussianBasis& basis, const DmpOptions& options);
+
 }  // namespace dmp

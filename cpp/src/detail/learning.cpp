@@ -105,6 +105,13 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
   return forcing_of(tau, alpha, beta, p.second, errors, p.first);
 }
 
+/// Two samples tell where from and where to, but no way and no velocity.
+template <class Velocity>
+void keep_spring_only(Velocity& start, ForcingTarget& target) {
+  start.setZero();
+  target.value.setZero();
+}
+
 }  // namespace
 
 DmpOptions resolved(const DmpOptions& options) {
@@ -171,6 +178,7 @@ PositionLesson lesson_of(const Demonstration& given, const DmpOptions& options) 
       motion.time / tau,
       forcing_of(tau, options.alpha, *options.beta, motion.acceleration, to_goal, motion.velocity),
       VectorXd::Ones(lesson.start.size())};
+  if (demonstration.size() < 3) keep_spring_only(lesson.start_z, lesson.target);
   return lesson;
 }
 
@@ -188,6 +196,7 @@ OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOpti
   lesson.start_error = errors.row(0);
   lesson.amplitude = range(errors);
   lesson.target = {motion.time / tau, orientation_forcing(motion, errors, tau, options), Vector3d::Ones()};
+  if (demonstration.size() < 3) keep_spring_only(lesson.start_eta, lesson.target);
   return lesson;
 }
 

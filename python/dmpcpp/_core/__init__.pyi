@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Start', 'Status', 'Trajectory', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'stretched', 'to_json']
+__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'Trajectory', 'assess', 'average', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'to_json']
 class InvalidArgument(ValueError):
     pass
 class FileError(OSError):
@@ -111,6 +111,10 @@ class Demonstration:
         """
         Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.
         """
+    def smoothed(self) -> Demonstration:
+        """
+        The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
+        """
     @property
     def dimension(self) -> int:
         ...
@@ -148,6 +152,10 @@ class OrientationDemonstration:
         """
         Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the start.
         """
+    def smoothed(self) -> OrientationDemonstration:
+        """
+        The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
+        """
     @property
     def duration(self) -> float:
         """
@@ -173,6 +181,10 @@ class PoseDemonstration:
         """
     def __len__(self) -> int:
         ...
+    def smoothed(self) -> PoseDemonstration:
+        """
+        The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
+        """
     @property
     def duration(self) -> float:
         """
@@ -227,6 +239,7 @@ class OrientationForm(enum.Enum):
     """
     The equation of motion of orientations.
     """
+    automatic: typing.ClassVar[OrientationForm]
     log_linear: typing.ClassVar[OrientationForm]
     ude: typing.ClassVar[OrientationForm]
     @classmethod
@@ -247,6 +260,7 @@ class Derivatives(enum.Enum):
     """
     gradient: typing.ClassVar[Derivatives]
     interpolate: typing.ClassVar[Derivatives]
+    smooth: typing.ClassVar[Derivatives]
     @classmethod
     def __new__(cls, value):
         ...
@@ -320,14 +334,6 @@ class DmpOptions:
         """
     @derivatives.setter
     def derivatives(self, arg1: typing.Any) -> None:
-        ...
-    @property
-    def tempo_filter(self) -> float:
-        """
-        s, time constant with which a new duration is approached
-        """
-    @tempo_filter.setter
-    def tempo_filter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
     @property
     def force_after_end(self) -> bool:
@@ -410,6 +416,14 @@ class DmpOptions:
     def passes(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
         ...
     @property
+    def phase_stop(self) -> float:
+        """
+        k: a tracking error e slows the phase to 1 / (tau (1 + k e))
+        """
+    @phase_stop.setter
+    def phase_stop(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
     def regression(self) -> Regression:
         """
         a Regression or its name
@@ -440,6 +454,14 @@ class DmpOptions:
         """
     @start.setter
     def start(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def tempo_filter(self) -> float:
+        """
+        s, time constant with which a change of tempo (duration, pause, phase stop) is approached
+        """
+    @tempo_filter.setter
+    def tempo_filter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
 class Status(enum.Enum):
     """
@@ -522,13 +544,25 @@ class Run:
         ...
     def __init__(self, dmp: Dmp) -> None:
         ...
+    def pause(self) -> None:
+        """
+        Comes to rest on the path, through options.tempo_filter.
+        """
     def reset(self) -> None:
         """
         Begins anew at the demonstrated start, with the goal and duration that were set last.
         """
+    def resume(self) -> None:
+        """
+        Goes on from there.
+        """
     def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
         The duration in s of the whole motion from now on; the path stays the same.
+        """
+    def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
     def start_from(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
@@ -555,6 +589,9 @@ class Run:
         """
     @goal.setter
     def goal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def paused(self) -> bool:
         ...
     @property
     def phase(self) -> float:
@@ -646,13 +683,25 @@ class OrientationRun:
         ...
     def __init__(self, dmp: OrientationDmp) -> None:
         ...
+    def pause(self) -> None:
+        """
+        Comes to rest on the path, through options.tempo_filter.
+        """
     def reset(self) -> None:
         """
         Begins anew at the demonstrated start, with the goal and duration that were set last.
         """
+    def resume(self) -> None:
+        """
+        Goes on from there.
+        """
     def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
         The duration in s of the whole motion from now on; the path stays the same.
+        """
+    def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
     def start_from(self, rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
@@ -684,6 +733,9 @@ class OrientationRun:
         """
     @goal.setter
     def goal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def paused(self) -> bool:
         ...
     @property
     def phase(self) -> float:
@@ -770,13 +822,25 @@ class PoseRun:
         ...
     def __init__(self, dmp: PoseDmp) -> None:
         ...
+    def pause(self) -> None:
+        """
+        Comes to rest on the path, through options.tempo_filter.
+        """
     def reset(self) -> None:
         """
         Begins anew at the demonstrated start, with the goal and duration that were set last.
         """
+    def resume(self) -> None:
+        """
+        Goes on from there.
+        """
     def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
         The duration in s of the whole motion from now on; the path stays the same.
+        """
+    def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
     def start_from(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], twist: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
@@ -803,6 +867,9 @@ class PoseRun:
         """
     @goal.setter
     def goal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def paused(self) -> bool:
         ...
     @property
     def phase(self) -> float:
@@ -836,6 +903,86 @@ class PoseRun:
     def twist(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class FitReport:
+    """
+    How a model reproduces demonstrations. Columns: dimensions of a position; components of the rotation vector between the orientations; for poses three of each.
+    """
+    @property
+    def condition(self) -> float:
+        """
+        of the regression's matrix
+        """
+    @property
+    def largest(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def largest_log(self) -> float:
+        """
+        rad, the largest |Log(Rg R^T)| on the way
+        """
+    @property
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) standard deviation found in the data
+        """
+    @property
+    def removed(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) root of the mean square that smoothing took out; 0 unless it was asked for
+        """
+    @property
+    def rmse(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def suggested_basis_count(self) -> int:
+        """
+        the fewest of 10, 20, 40, .. 1280 kernels that reach the tolerance; 0: none does
+        """
+    @property
+    def warnings(self) -> list[str]:
+        ...
+class Spread:
+    """
+    Where demonstrations of one motion lie over the phase, each taken at t / duration.
+    """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, d, d) of one demonstration about the mean
+        """
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, d)
+        """
+    @property
+    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K,) 0 to 1
+        """
+class PoseSpread:
+    """
+    Where demonstrations of one motion lie over the phase, for poses.
+    """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, 6, 6) of position [m] and rotation vector from the mean [rad, world frame]
+        """
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, 4, 4)
+        """
+    @property
+    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K,) 0 to 1
         """
 class Arm:
     """
@@ -1276,6 +1423,36 @@ class InverseKinematics:
     @property
     def options(self) -> IkOptions:
         ...
+@typing.overload
+def assess(model: Dmp, demonstrations: collections.abc.Sequence[Demonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
+    """
+    How a model reproduces a list of demonstrations, and what was found in them. `position` and `angle` (rad) are the RMSE that the suggested number of kernels shall reach.
+    """
+@typing.overload
+def assess(model: OrientationDmp, demonstrations: collections.abc.Sequence[OrientationDemonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
+    """
+    How a model reproduces a list of demonstrations, and what was found in them. `position` and `angle` (rad) are the RMSE that the suggested number of kernels shall reach.
+    """
+@typing.overload
+def assess(model: PoseDmp, demonstrations: collections.abc.Sequence[PoseDemonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
+    """
+    How a model reproduces a list of demonstrations, and what was found in them. `position` and `angle` (rad) are the RMSE that the suggested number of kernels shall reach.
+    """
+@typing.overload
+def average(models: collections.abc.Sequence[Dmp]) -> Dmp:
+    """
+    The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
+    """
+@typing.overload
+def average(models: collections.abc.Sequence[OrientationDmp]) -> OrientationDmp:
+    """
+    The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
+    """
+@typing.overload
+def average(models: collections.abc.Sequence[PoseDmp]) -> PoseDmp:
+    """
+    The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
+    """
 def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
     """
     The smallest factor on the duration with which the joints' spline stays within the limits (n,) and (n,).
@@ -1302,6 +1479,16 @@ def save(model: OrientationDmp, path: os.PathLike | str | bytes) -> None:
 def save(model: PoseDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
+    """
+@typing.overload
+def spread(demonstrations: collections.abc.Sequence[Demonstration], count: typing.SupportsInt | typing.SupportsIndex = 101) -> Spread:
+    """
+    Mean and covariance of demonstrations at `count` even phases. Raises InvalidArgument for none, or for different dimensions.
+    """
+@typing.overload
+def spread(demonstrations: collections.abc.Sequence[PoseDemonstration], count: typing.SupportsInt | typing.SupportsIndex = 101) -> PoseSpread:
+    """
+    Mean and covariance of demonstrations at `count` even phases. Raises InvalidArgument for none, or for different dimensions.
     """
 def stretched(joints: JointTrajectory, factor: typing.SupportsFloat | typing.SupportsIndex) -> JointTrajectory:
     """

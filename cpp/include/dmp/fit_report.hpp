@@ -1,0 +1,46 @@
+#pragma once
+
+#include <dmp/dmp.hpp>
+#include <dmp/export.hpp>
+#include <dmp/orientation_dmp.hpp>
+#include <dmp/pose_dmp.hpp>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace dmp {
+
+/// What counts as reproduced: root of the mean square over all samples.
+struct Tolerance {
+  double position = 1e-3;  ///< m, or the unit of the positions
+  double angle = 0.0087;   ///< rad; about half a degree
+};
+
+/// How a model reproduces demonstrations, and what was found in them. Columns: the dimensions of a position;
+/// the components of the rotation vector between the two orientations (world frame, rad); for poses three of
+/// each.
+struct FitReport {
+  Eigen::VectorXd rmse;  ///< (d) rollout at each demonstration's own start, goal and duration, at its samples
+  Eigen::VectorXd largest;  ///< (d)
+  Eigen::VectorXd noise;    ///< (d) standard deviation found in the data (Spline::smoothing)
+  Eigen::VectorXd
+      removed;  ///< (d) root of the mean square that smoothing took out; 0 unless it was asked for
+  double largest_log = 0.0;  ///< rad, the largest |Log(Rg R^T)| on the way; 0 for positions
+  double condition = 1.0;    ///< of the regression's matrix
+  int suggested_basis_count =
+      0;  ///< the fewest of 10, 20, 40, .. 1280 kernels that reach the tolerance; 0: none does
+  std::vector<std::string> warnings;
+};
+
+/// Holds a model against demonstrations, those that it was learned from or others. Throws InvalidArgument for
+/// none, or for another dimension.
+DMP_EXPORT FitReport assess(const Dmp& dmp, const std::vector<Demonstration>& demonstrations,
+                            const Tolerance& tolerance = {});
+DMP_EXPORT FitReport assess(const OrientationDmp& dmp,
+                            const std::vector<OrientationDemonstration>& demonstrations,
+                            const Tolerance& tolerance = {});
+DMP_EXPORT FitReport assess(const PoseDmp& dmp, const std::vector<PoseDemonstration>& demonstrations,
+                            const Tolerance& tolerance = {});
+
+}  // namespace dmp

@@ -1,0 +1,212 @@
+#include <dmp/error.hpp>
+#include <dmp/fit_report.hpp>
+#include <dmp/so3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "detail/learning.hpp"
+#include "detail/text.hpp"
+
+namespace dmp {
+namespace {
+
+using detail::number;
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Matrix4d;
+using Eigen::VectorXd;
+
+constexpr int kFewestKernels = 10;
+constexpr int kMostKernels = 1280;
+
+Matrix3d rotation_of(const Matrix4d& pose) { return pose.topLeftCorner<3, 3>(); }
+
+/// Row by row the rotation vector from b to a, world frame.
+RowMatrix turns(const Rotations& a, const Rotations& b) {
+  RowMatrix result(static_cast<Index>(a.size()), 3);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    result.row(static_cast<Index>(k)) = so3::log(Matrix3d(a[k] * b[k].transpose())).transpose();
+  return result;
+}
+
+Rotations rotations_of(const Poses& poses) {
+  Rotations rotations;
+  for (const Matrix4d& pose : poses) rotations.push_back(rotation_of(pose));
+  return rotations;
+}
+
+// What the three kinds differ in: the deviation of a rollout from a demonstration, its noise, how far it
+// turns.
+
+RowMatrix deviation(const Dmp& dmp, const Demonstration& demonstration) {
+  const Index last = demonstration.size() - 1;
+  DmpParameters own = dmp.parameters();
+  own.start = demonstration.position().row(0);
+  own.goal = demonstration.position().row(last);
+  own.start_velocity *= own.duration / demonstration.duration();
+  own.duration = demonstration.duration();
+  return Dmp(own).rollout_at(demonstration.time()).position - demonstration.position();
+}
+
+RowMatrix deviation(const OrientationDmp& dmp, const OrientationDemonstration& demonstration) {
+  OrientationDmpParameters own = dmp.parameters();
+  own.start = demonstration.rotation().front();
+  own.goal = demonstration.rotation().back();
+  own.start_error =
+      so3::lifted_log(Eigen::Quaterniond(Matrix3d(own.goal * own.start.transpose())), own.start_error);
+  own.start_velocity *= own.duration / demonstration.duration();
+  own.duration = demonstration.duration();
+  return turns(OrientationDmp(own).rollout_at(demonstration.time()).rotation, demonstration.rotation());
+}
+
+RowMatrix deviation(const PoseDmp& dmp, const PoseDemonstration& demonstration) {
+  const Poses poses = demonstration.pose();
+  PoseDmpParameters own = dmp.parameters();
+  own.start = poses.front();
+  own.goal = poses.back();
+  const Matrix3d way = rotation_of(own.goal) * rotation_of(own.start).transpose();
+  own.start_error = so3::lifted_log(Eigen::Quaterniond(way), own.start_error);
+  own.start_twist *= own.duration / demonstration.duration();
+  own.duration = demonstration.duration();
+  const Poses again = PoseDmp(own).rollout_at(demonstration.time()).pose;
+  RowMatrix result(demonstration.size(), 6);
+  result.rightCols(3) = turns(rotations_of(again), rotations_of(poses));
+  for (Index k = 0; k < result.rows(); ++k)
+    result.row(k).head(3) =
+        (again[static_cast<std::size_t>(k)] - poses[static_cast<std::size_t>(k)]).topRightCorner<3, 1>();
+  return result;
+}
+
+Smoothing smoothing_of(const Demonstration& demonstration) {
+  Smoothing found;
+  demonstration.smoothed(&found);
+  return found;
+}
+
+Smoothing smoothing_of(const OrientationDemonstration& demonstration) {
+  Smoothing found;
+  demonstration.smoothed(&found);
+  return {VectorXd::Constant(3, found.noise[0]), VectorXd::Constant(3, found.removed[0])};
+}
+
+Smoothing smoothing_of(const PoseDemonstration& demonstration) {
+  const Smoothing position = smoothing_of(demonstration.position());
+  const Smoothing orientation = smoothing_of(demonstration.orientation());
+  Smoothing both{VectorXd(6), VectorXd(6)};
+  both.noise << position.noise, orientation.noise;
+  both.removed << position.removed, orientation.removed;
+  return both;
+}
+
+double largest_log_of(const Demonstration&, const DmpOptions&) { return 0.0; }
+double largest_log_of(const OrientationDemonstration& demonstration, const DmpOptions& options) {
+  return detail::largest_log(demonstration, options.log_branch);
+}
+double largest_log_of(const PoseDemonstration& demonstration, const DmpOptions& options) {
+  return detail::largest_log(demonstration.orientation(), options.log_branch);
+}
+
+/// How far the rmse goes beyond the tolerance: 1 is just within.
+double excess(const Dmp&, const VectorXd& rmse, const Tolerance& tolerance) {
+  return rmse.norm() / tolerance.position;
+}
+double excess(const OrientationDmp&, const VectorXd& rmse, const Tolerance& tolerance) {
+  return rmse.norm() / tolerance.angle;
+}
+double excess(const PoseDmp&, const VectorXd& rmse, const Tolerance& tolerance) {
+  return std::max(rmse.head(3).norm() / tolerance.position, rmse.tail(3).norm() / tolerance.angle);
+}
+
+// What they share.
+
+template <class Model, class Demonstrations>
+VectorXd rmse_of(const Model& model, const Demonstrations& demonstrations, VectorXd* largest = nullptr) {
+  VectorXd squares;
+  double count = 0.0;
+  for (const auto& demonstration : demonstrations) {
+    const RowMatrix away = deviation(model, demonstration);
+    const VectorXd most = away.cwiseAbs().colwise().maxCoeff();
+    if (squares.size() == 0) squares = VectorXd::Zero(away.cols());
+    squares += away.colwise().squaredNorm().transpose();
+    count += static_cast<double>(away.rows());
+    if (largest) *largest = largest->size() == 0 ? most : VectorXd(largest->cwiseMax(most));
+  }
+  return (squares / count).cwiseSqrt();
+}
+
+template <class Model, class Demonstrations>
+int suggested(const Model& model, const Demonstrations& demonstrations, const Tolerance& tolerance) {
+  for (int count = kFewestKernels; count <= kMostKernels; count *= 2) {
+    DmpOptions options = model.options();
+    options.basis_count = count;
+    const Model tried = Model::fit(demonstrations, options);
+    if (excess(tried, rmse_of(tried, demonstrations), tolerance) <= 1.0) return count;
+  }
+  return 0;
+}
+
+template <class Demonstrations>
+void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOptions& options) {
+  for (std::size_t j = 0; j < demonstrations.size(); ++j)
+    if (demonstrations[j].size() < 3)
+      report.warnings.push_back(
+          detail::indexed("demonstrations", static_cast<long>(j)) +
+          ": two samples tell a start and a goal only; the spring and damper alone move there.");
+  if (report.largest_log > 1.9 * M_PI)
+    report.warnings.push_back(
+        "largest_log: " + number(report.largest_log) +
+        " rad comes near 2 pi, where the logarithm is singular across the axis. Split the demonstration.");
+  if (report.condition > 1e12)
+    report.warnings.push_back("condition: " + number(report.condition) +
+                              " leaves few digits. Use fewer kernels, a larger overlap or a larger ridge.");
+  if (options.derivatives != Derivatives::smooth && report.noise.maxCoeff() > 3.0 * report.rmse.maxCoeff())
+    report.warnings.push_back("noise: " + number(report.noise.maxCoeff()) +
+                              " was found and learned with the motion. Derivatives::smooth takes it out.");
+  if (report.suggested_basis_count == 0)
+    report.warnings.push_back("suggested_basis_count: no number of kernels up to " +
+                              std::to_string(kMostKernels) + " reaches the tolerance.");
+}
+
+template <class Model, class Demonstrations>
+FitReport assessed(const Model& model, const Demonstrations& demonstrations, const Tolerance& tolerance) {
+  if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
+  FitReport report;
+  report.rmse = rmse_of(model, demonstrations, &report.largest);
+  report.noise = VectorXd::Zero(report.rmse.size());
+  report.removed = report.noise;
+  for (const auto& demonstration : demonstrations) {
+    const Smoothing found = smoothing_of(demonstration);
+    report.noise += found.noise / static_cast<double>(demonstrations.size());
+    if (model.options().derivatives == Derivatives::smooth)
+      report.removed += found.removed / static_cast<double>(demonstrations.size());
+    report.largest_log = std::max(report.largest_log, largest_log_of(demonstration, model.options()));
+  }
+  report.condition = regression_condition(model.forcing().basis(), model.options());
+  report.suggested_basis_count = suggested(model, demonstrations, tolerance);
+  warn(report, demonstrations, model.options());
+  return report;
+}
+
+}  // namespace
+
+FitReport assess(const Dmp& dmp, const std::vector<Demonstration>& demonstrations,
+                 const Tolerance& tolerance) {
+  for (const Demonstration& demonstration : demonstrations)
+    if (demonstration.dimension() != dmp.dimension())
+      throw InvalidArgument("demonstrations: " + std::to_string(demonstration.dimension()) +
+                            " dimensions, expected " + std::to_string(dmp.dimension()) + " as in the model.");
+  return assessed(dmp, demonstrations, tolerance);
+}
+
+FitReport assess(const OrientationDmp& dmp, const std::vector<OrientationDemonstration>& demonstrations,
+                 const Tolerance& tolerance) {
+  return assessed(dmp, demonstrations, tolerance);
+}
+
+FitReport assess(const PoseDmp& dmp, const std::vector<PoseDemonstration>& demonstrations,
+                 const Tolerance& tolerance) {
+  return assessed(dmp, demonstrations, tolerance);
+}
+
+}  // namespace dmp

@@ -1,0 +1,40 @@
+#include <doctest/doctest.h>
+#include <dmp/average.hpp>
+#include <dmp/error.hpp>
+
+#include "motions.hpp"
+
+using namespace dmp;
+using namespace motions;
+
+TEST_CASE("averaging models is learning the demonstrations together, where scales agree") {
+  const Demonstration a = helix(300, 2.0, .1, .2, 1.5);
+  RowMatrix other = a.position();
+  for (Eigen::Index k = 0; k < other.rows(); ++k) other(k, 0) += .02 * std::sin(3 * a.time()[k]);
+  const Demonstration b(a.time(), other);
+  const Dmp mean = average(std::vector<Dmp>{Dmp::fit(a), Dmp::fit(b)});
+  const Dmp joint = Dmp::fit(std::vector<Demonstration>{a, b});
+  CHECK((mean.parameters().weights - joint.parameters().weights).norm() <
+        1e-9 * joint.parameters().weights.norm());
+  CHECK(largest(mean.rollout({}, {}, .01).position, joint.rollout({}, {}, .01).position) < 1e-12);
+}
+
+TEST_CASE("orientations and poses average on SO(3)") {
+  const PoseDemonstration demonstration = pose(300, 2.0);
+  const PoseDmp one = PoseDmp::fit(demonstration);
+  const PoseDmp mean = average(std::vector<PoseDmp>{one, one, one});
+  CHECK((mean.rollout({}, {}, .01).pose.back() - one.rollout({}, {}, .01).pose.back()).norm() < 1e-12);
+  const OrientationDmp turn = OrientationDmp::fit(demonstration.orientation());
+  CHECK(so3::distance(average(std::vector<OrientationDmp>{turn, turn}).goal(), turn.goal()) < 1e-12);
+}
+
+TEST_CASE("models that are not alike are refused with the option that differs") {
+  const Demonstration a = reach(100, 1.0);
+  DmpOptions other;
+  other.alpha = 30.0;
+  CHECK_THROWS_WITH_AS(average(std::vector<Dmp>{Dmp::fit(a), Dmp::fit(a, other)}),
+                       doctest::Contains("models[1]: options.alpha is 30"), InvalidArgument);
+  CHECK_THROWS_AS(average(std::vector<Dmp>{}), InvalidArgument);
+  const Demonstration flat(a.time(), a.position().leftCols(2));
+  CHECK_THROWS_AS(average(std::vector<Dmp>{Dmp::fit(a), Dmp::fit(flat)}), InvalidArgument);
+}

@@ -1,0 +1,116 @@
+#include <doctest/doctest.h>
+#include <dmp/error.hpp>
+#include <dmp/fit_report.hpp>
+
+#include <random>
+
+#include "motions.hpp"
+
+using namespace dmp;
+using namespace motions;
+
+namespace {
+Demonstration noisy_helix(double sigma, unsigned seed) {
+  const Demonstration clean = helix(401, 2.0, .1, .4, 1.6);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, sigma);
+  RowMatrix y = clean.position();
+  for (Eigen::Index k = 0; k < y.size(); ++k) y.data()[k] += noise(random);
+  return {clean.time(), y};
+}
+}  // namespace
+
+TEST_CASE("a report has the errors of the rollout, axis by axis") {
+  const Demonstration demonstration = helix(500, 2.0, .1, .2, 2);
+  const Dmp dmp = Dmp::fit(demonstration);
+  const RowMatrix away = dmp.rollout_at(demonstration.time()).position - demonstration.position();
+  const FitReport report = assess(dmp, {demonstration});
+  for (int d = 0; d < 3; ++d) {
+    CHECK(report.rmse[d] == doctest::Approx(std::sqrt(away.col(d).squaredNorm() / 500)));
+    CHECK(report.largest[d] == doctest::Approx(away.col(d).cwiseAbs().maxCoeff()));
+  }
+  CHECK(report.warnings.empty());
+  CHECK(report.removed.norm() == 0.0);
+}
+
+TEST_CASE("the suggested number of kernels reaches the tolerance, half of it does not") {
+  const Demonstration demonstration = helix(500, 2.0, .1, .2, 2);
+  const int count = assess(Dmp::fit(demonstration), {demonstration}, {1e-4, 1e-3}).suggested_basis_count;
+  const auto error = [&](int n) {
+    DmpOptions options;
+    options.basis_count = n;
+    return rmse(Dmp::fit(demonstration, options).rollout_at(demonstration.time()).position,
+                demonstration.position());
+  };
+  REQUIRE(count > 10);
+  CHECK(error(count) <= 1e-4);
+  CHECK(error(count / 2) > 1e-4);
+}
+
+TEST_CASE("the noise in the data is found, and smoothing tells what it took out") {
+  const Demonstration noisy = noisy_helix(1e-3, 1);
+  const FitReport plain = assess(Dmp::fit(noisy), {noisy}, {1e-5, 1e-3});
+  for (int d = 0; d < 3; ++d) CHECK(plain.noise[d] == doctest::Approx(1e-3).epsilon(.15));
+  DmpOptions smooth;
+  smooth.derivatives = Derivatives::smooth;
+  const FitReport report = assess(Dmp::fit(noisy, smooth), {noisy});
+  for (int d = 0; d < 3; ++d) CHECK(report.removed[d] == doctest::Approx(1e-3).epsilon(.15));
+}
+
+TEST_CASE("smoothed, a noisy helix comes back closer to the truth than a third of its noise") {
+  double squares = 0.0;
+  const Demonstration truth = helix(401, 2.0, .1, .4, 1.6);
+  DmpOptions smooth;
+  smooth.derivatives = Derivatives::smooth;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const RowMatrix again = Dmp::fit(noisy_helix(1e-3, seed), smooth).rollout_at(truth.time()).position;
+    squares += (again - truth.position()).squaredNorm() / static_cast<double>(3 * 401 * 20);
+  }
+  CHECK(std::sqrt(squares) < .33e-3);
+}
+
+TEST_CASE("smoothing leaves clean data as they are") {
+  const Demonstration clean = helix(401, 2.0, .1, .4, 1.6);
+  Smoothing report;
+  CHECK(largest(clean.smoothed(&report).position(), clean.position()) < 1e-6);
+  CHECK(report.noise.maxCoeff() < 1e-6);
+}
+
+TEST_CASE("how far an orientation turns and in which form it is learned") {
+  const OrientationDemonstration near = rotation(300, 2.0, 1.0);
+  const OrientationDemonstration far = rotation(1000, 10.0, 10.0);
+  CHECK(OrientationDmp::fit(near).options().orientation_form == OrientationForm::ude);
+  CHECK(OrientationDmp::fit(far).options().orientation_form == OrientationForm::log_linear);
+  CHECK(assess(OrientationDmp::fit(near), {near}).largest_log < 1.5);
+  CHECK(assess(OrientationDmp::fit(far), {far}).largest_log > 5.0);
+}
+
+TEST_CASE("two samples are a spring alone, and the report warns") {
+  RowMatrix two(2, 1);
+  two << 0.0, 1.0;
+  const Demonstration demonstration(Eigen::Vector2d(0, 1), two);
+  const Dmp dmp = Dmp::fit(demonstration);
+  CHECK(dmp.parameters().weights.norm() == 0.0);
+  CHECK(dmp.rollout_at(Eigen::VectorXd::Constant(1, .25)).position(0, 0) ==
+        doctest::Approx(.8187601488034444).epsilon(1e-12));
+  const FitReport report = assess(dmp, {demonstration});
+  REQUIRE_FALSE(report.warnings.empty());
+  CHECK(report.warnings[0].find("two samples") != std::string::npos);
+}
+
+TEST_CASE("the condition tells how the kernels overlap") {
+  const Demonstration demonstration = reach(300, 1.0);
+  DmpOptions ridge;
+  ridge.regression = Regression::ridge;
+  const double local = assess(Dmp::fit(demonstration), {demonstration}).condition;
+  const double global = assess(Dmp::fit(demonstration, ridge), {demonstration}).condition;
+  CHECK(local > 1.0);
+  CHECK(local < 1e3);
+  CHECK(global > 1e3 * local);
+}
+
+TEST_CASE("nothing to hold a model against is refused") {
+  const Dmp dmp = Dmp::fit(reach(100, 1.0));
+  CHECK_THROWS_AS(assess(dmp, {}), InvalidArgument);
+  CHECK_THROWS_AS(assess(dmp, {Demonstration(grid(9, 1.0), RowMatrix::Zero(9, 2))}), InvalidArgument);
+}
