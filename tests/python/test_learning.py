@@ -16,7 +16,7 @@ def noisy(seed: int, sigma: float = 1e-3, duration: float = 2.0) -> dmpcpp.Demon
 
 def test_a_report_finds_noise_and_says_what_smoothing_removed():
     demonstration = noisy(0)
-    report = dmpcpp.assess(Dmp.fit(demonstration, derivatives="smooth"), [demonstration])
+    report = dmpcpp.assess(Dmp.fit(demonstration, derivatives="smooth"), [demonstration], position=3e-3)
     assert report.noise == pytest.approx([1e-3] * 3, rel=0.2)
     assert report.removed == pytest.approx([1e-3] * 3, rel=0.2)
     assert report.rmse.shape == report.largest.shape == (3,)
