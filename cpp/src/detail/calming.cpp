@@ -48,9 +48,10 @@ void tighten(const PathTracker& tracker, const TargetPath& path, const JointRang
 // The spline through the band at time t of the samples between knots i and i + 1 (Hermite form).
 Joints between(const JointTrajectory& spline, Eigen::Index i, double t) {
   const double h = spline.time[i + 1] - spline.time[i], s = (t - spline.time[i]) / h;
-  const double right = s * s * (3.0 - 2.0 * s), rise = h * s * (1.0 - s) * (1.0 - s), fall = -h * s * s * (1.0 - s);
-  return ((1.0 - right) * spline.position.row(i) + right * spline.position.row(i + 1) + rise * spline.velocity.row(i) +
-          fall * spline.velocity.row(i + 1))
+  const double right = s * s * (3.0 - 2.0 * s), rise = h * s * (1.0 - s) * (1.0 - s),
+               fall = -h * s * s * (1.0 - s);
+  return ((1.0 - right) * spline.position.row(i) + right * spline.position.row(i + 1) +
+          rise * spline.velocity.row(i) + fall * spline.velocity.row(i + 1))
       .transpose();
 }
 

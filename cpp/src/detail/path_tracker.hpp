@@ -39,7 +39,8 @@ class PathTracker {
   /// The closest joints to the first pose that `start` allows, then onwards.
   Route track_from(const TargetPath& path, const Joints& start, double pull) const;
   /// Joints in [lower, upper] that meet the target, by a descent from `near`; none if it misses.
-  std::optional<Joints> meet(const Frame& target, const Joints& near, const Joints& lower, const Joints& upper) const;
+  std::optional<Joints> meet(const Frame& target, const Joints& near, const Joints& lower,
+                             const Joints& upper) const;
   /// Fills in what the joints of a route are worth, but for its miss.
   void rate(const TargetPath& path, Route& route) const;
 

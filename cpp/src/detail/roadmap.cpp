@@ -8,11 +8,11 @@ namespace dmp::detail {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double longest_edge = 0.7;    // rad or m of any joint
-constexpr double same_joints = 0.03;    // rad or m: closer than that, one of two is enough
-constexpr double near_a_limit = 0.1;    // rad or m
-constexpr double usual_speed = 2.0;     // rad/s, of a joint without a velocity limit
-constexpr double jerk_allowance = 0.02; // rad, by which a step may exceed three times its share of the edge
+constexpr double longest_edge = 0.7;     // rad or m of any joint
+constexpr double same_joints = 0.03;     // rad or m: closer than that, one of two is enough
+constexpr double near_a_limit = 0.1;     // rad or m
+constexpr double usual_speed = 2.0;      // rad/s, of a joint without a velocity limit
+constexpr double jerk_allowance = 0.02;  // rad, by which a step may exceed three times its share of the edge
 
 Joints weights(const ChainModel& model) {
   Joints weight(model.velocity_limit.size());
@@ -30,8 +30,8 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t layers) {
 
 }  // namespace
 
-Roadmap::Roadmap(const ChainModel& model, const PathTracker& tracker, const TargetPath& path, const RoadmapSize& size,
-                 std::uint64_t random_seed, const std::optional<Joints>& start)
+Roadmap::Roadmap(const ChainModel& model, const PathTracker& tracker, const TargetPath& path,
+                 const RoadmapSize& size, std::uint64_t random_seed, const std::optional<Joints>& start)
     : tracker_(tracker),
       path_(path),
       size_(size),
@@ -44,13 +44,16 @@ Roadmap::Roadmap(const ChainModel& model, const PathTracker& tracker, const Targ
   for (std::size_t k = start ? 1 : 0; k < layers_.size(); ++k) {
     fill(k, random);
     if (k > 0) spread(k - 1, k);
+    if (layers_[k].empty()) return;  // no way leads through
   }
   for (std::size_t k = layers_.size() - 1; k > (start ? 1u : 0u); --k) spread(k, k - 1);
 }
 
 void Roadmap::add(std::size_t layer, const Joints& joints) {
   Layer& nodes = layers_[layer];
-  const auto is_same = [&](const Node& node) { return (node.joints - joints).cwiseAbs().maxCoeff() < same_joints; };
+  const auto is_same = [&](const Node& node) {
+    return (node.joints - joints).cwiseAbs().maxCoeff() < same_joints;
+  };
   if (nodes.size() >= size_.kept || std::any_of(nodes.begin(), nodes.end(), is_same)) return;
   const double shortfall = std::max(1.0 - range_.margin(joints) / near_a_limit, 0.0);
   nodes.push_back({joints, near_a_limit * near_a_limit * shortfall * shortfall, infinity, 0, {}});
@@ -93,7 +96,8 @@ void Roadmap::relax(std::size_t first_layer) {
         const double known = before.cost + node.toll;
         if (known >= node.cost) continue;
         const double cost = known + length(before, node, node.cost - known);
-        if (cost >= node.cost || std::find(node.shut.begin(), node.shut.end(), i) != node.shut.end()) continue;
+        if (cost >= node.cost || std::find(node.shut.begin(), node.shut.end(), i) != node.shut.end())
+          continue;
         node.cost = cost;
         node.from = i;
       }

@@ -16,15 +16,16 @@ struct RoadmapSize {
   int ways = 100;          ///< ways through that are examined
 };
 
-/// Joints for a path by way of a layered graph: each layer holds many joints that meet one pose, an edge joins two of
-/// neighbouring layers that are close, and the shortest way through is walked. (Descartes, ROS-Industrial; edges are
-/// examined only when the shortest way uses them, as in the lazy PRM of Bohlin and Kavraki, ICRA 2000.) It finds what
-/// tracking can not: a null space that must be moved in time, so that a later pose is met within the limits.
+/// Joints for a path by way of a layered graph: each layer holds many joints that meet one pose, an edge
+/// joins two of neighbouring layers that are close, and the shortest way through is walked. (Descartes,
+/// ROS-Industrial; edges are examined only when the shortest way uses them, as in the lazy PRM of Bohlin and
+/// Kavraki, ICRA 2000.) It finds what tracking can not: a null space that must be moved in time, so that a
+/// later pose is met within the limits.
 class Roadmap {
  public:
   /// `start`: the only joints of the first layer, if given. All arguments must outlive the roadmap.
-  Roadmap(const ChainModel& model, const PathTracker& tracker, const TargetPath& path, const RoadmapSize& size,
-          std::uint64_t random_seed, const std::optional<Joints>& start);
+  Roadmap(const ChainModel& model, const PathTracker& tracker, const TargetPath& path,
+          const RoadmapSize& size, std::uint64_t random_seed, const std::optional<Joints>& start);
 
   /// Joints at every pose of the path; none if no way leads through.
   std::optional<Route> shortest();

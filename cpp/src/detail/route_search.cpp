@@ -1,6 +1,7 @@
 #include "route_search.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "calming.hpp"
 #include "random.hpp"
@@ -108,10 +109,23 @@ Route RouteSearch::from_anchors(const TargetPath& path) {
   if (is_whole) return std::move(all.front().route);
   Route best;
   for (std::size_t i = 0; i < kept; ++i) {
-    Route route = tracker_.track(path, samples[all[i].anchor], all[i].route.joints[all[i].anchor], all[i].pull);
+    Route route =
+        tracker_.track(path, samples[all[i].anchor], all[i].route.joints[all[i].anchor], all[i].pull);
     if (i == 0 || route.better_than(best)) best = std::move(route);
   }
   return best;
+}
+
+// Small roadmaps find most ways; some ways are narrow.
+void RouteSearch::by_roadmap(const TargetPath& path, const std::optional<Joints>& start, Route& best) const {
+  constexpr std::array<RoadmapSize, 3> sizes = {
+      {{60, 60, 200, 100}, {60, 200, 500, 300}, {200, 100, 200, 300}}};
+  for (const RoadmapSize& size : sizes) {
+    const auto route = Roadmap(model_, tracker_, path, size, random_seed_, start).shortest();
+    if (!route) continue;
+    if (route->better_than(best)) best = *route;
+    return;
+  }
 }
 
 Route RouteSearch::best(const TargetPath& path) {
@@ -121,8 +135,7 @@ Route RouteSearch::best(const TargetPath& path) {
   if (!options_.thorough) return best;
   if (!best.complete()) {
     if (start) start = best.joints.front();
-    const auto route = Roadmap(model_, tracker_, path, {}, random_seed_, start).shortest();
-    if (route && route->better_than(best)) best = *route;
+    by_roadmap(path, start, best);
   }
   if (!start && best.complete()) {
     const auto calm = calmed(model_, tracker_, path, best);
