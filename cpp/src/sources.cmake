@@ -39,4 +39,5 @@ set(DMP_kinematics_SOURCES
   detail/roadmap.cpp
   detail/route_search.cpp
   detail/urdf_chain.cpp
+  detail/urdf_graph.cpp
   detail/urdf_scan.cpp)

@@ -66,6 +66,27 @@ JointTrajectory spline_through(const TargetPath& path, const Knots& knots, const
   return JointTrajectory::through(times, positions);
 }
 
+// Every pose met near the spline.
+std::optional<Route> put_on(const PathTracker& tracker, const TargetPath& path, const JointRange& range,
+                            const Knots& knots, const JointTrajectory& spline) {
+  Route route;
+  std::size_t knot = 0;
+  for (std::size_t k = 0; k < path.target.size(); ++k) {
+    while (knot + 2 < knots.size() && knots[knot + 1] <= k) ++knot;
+    const Joints wish = between(spline, static_cast<Eigen::Index>(knot), path.time[k]);
+    Joints lower = range.lower, upper = range.upper;
+    if (k > 0) {
+      lower = lower.cwiseMax(route.joints.back() - path.step[k - 1]);
+      upper = upper.cwiseMin(route.joints.back() + path.step[k - 1]);
+    }
+    const auto met = tracker.meet(path.target[k], wish.cwiseMax(lower).cwiseMin(upper), lower, upper);
+    if (!met) return std::nullopt;
+    route.joints.push_back(*met);
+  }
+  tracker.rate(path, route);
+  return route;
+}
+
 }  // namespace
 
 std::optional<Route> calmed(const ChainModel& model, const PathTracker& tracker, const TargetPath& path,
@@ -76,21 +97,7 @@ std::optional<Route> calmed(const ChainModel& model, const PathTracker& tracker,
   std::vector<Joints> band;
   for (const std::size_t knot : knots) band.push_back(route.joints[knot]);
   tighten(tracker, path, range, knots, band);
-  const JointTrajectory spline = spline_through(path, knots, band);
-  Route calm;
-  std::size_t knot = 0;
-  for (std::size_t k = 0; k < path.target.size(); ++k) {
-    while (knot + 2 < knots.size() && knots[knot + 1] <= k) ++knot;
-    const Joints wish = between(spline, static_cast<Eigen::Index>(knot), path.time[k]);
-    const Joints step = path.step[k > 0 ? k - 1 : 0];
-    const Joints lower = k == 0 ? range.lower : Joints(range.lower.cwiseMax(calm.joints.back() - step));
-    const Joints upper = k == 0 ? range.upper : Joints(range.upper.cwiseMin(calm.joints.back() + step));
-    const auto met = tracker.meet(path.target[k], wish.cwiseMax(lower).cwiseMin(upper), lower, upper);
-    if (!met) return std::nullopt;
-    calm.joints.push_back(*met);
-  }
-  tracker.rate(path, calm);
-  return calm;
+  return put_on(tracker, path, range, knots, spline_through(path, knots, band));
 }
 
 }  // namespace dmp::detail
