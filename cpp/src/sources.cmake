@@ -28,6 +28,7 @@ set(DMP_kinematics_SOURCES
   time_scaling.cpp
   detail/bounded_lm.cpp
   detail/box_step.cpp
+  detail/calming.cpp
   detail/flat_chain.cpp
   detail/ik_search.cpp
   detail/joint_range.cpp
@@ -35,6 +36,8 @@ set(DMP_kinematics_SOURCES
   detail/kdl_backend.cpp
   detail/kdl_forward.cpp
   detail/path_tracker.cpp
+  detail/roadmap.cpp
   detail/route_search.cpp
   detail/urdf_chain.cpp
+  detail/urdf_graph.cpp
   detail/urdf_scan.cpp)

@@ -216,6 +216,8 @@ void bind_ik_options(py::module_& m) {
       .def_readwrite("respect_velocity", &FollowOptions::respect_velocity)
       .def_readwrite("anchors", &FollowOptions::anchors, "Poses of the path at which starts are searched.")
       .def_readwrite("starts", &FollowOptions::starts, "Joints tried at each anchor.")
+      .def_readwrite("thorough", &FollowOptions::thorough,
+                     "Search a roadmap where tracking misses a pose, and calm the null space.")
       .def_readwrite("position_tolerance", &FollowOptions::position_tolerance,
                      "m: when a pose counts as met.")
       .def_readwrite("angle_tolerance", &FollowOptions::angle_tolerance, "rad: when a pose counts as met.");

@@ -37,6 +37,25 @@ Poses feasible_path(const Arm& arm, std::mt19937& random, Eigen::Index count) {
   return arm.forward_kinematics(q);
 }
 
+// The joints themselves, smoothly through four random postures, each 80 % of the way to a random one further.
+RowMatrix far_swing(const Arm& arm, std::mt19937& random, Eigen::Index count) {
+  const Eigen::VectorXd middle = 0.5 * (arm.lower() + arm.upper());
+  RowMatrix through(4, arm.joint_count());
+  for (Eigen::Index w = 0; w < 4; ++w) {
+    const Eigen::VectorXd q = middle + 0.85 * (arms::random_joints(arm, random) - middle);
+    through.row(w) = q.transpose();
+    if (w > 0) through.row(w) = 0.2 * through.row(w - 1) + 0.8 * q.transpose();
+  }
+  RowMatrix joints(count, arm.joint_count());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double at = 3.0 * static_cast<double>(k) / static_cast<double>(count - 1);
+    const Eigen::Index w = std::min<Eigen::Index>(static_cast<Eigen::Index>(at), 2);
+    const double s = at - static_cast<double>(w), rise = s * s * (3.0 - 2.0 * s);
+    joints.row(k) = through.row(w) + rise * (through.row(w + 1) - through.row(w));
+  }
+  return joints;
+}
+
 double largest_error(const Arm& arm, const JointTrajectory& joints, const Poses& poses) {
   const Poses tips = arm.forward_kinematics(joints.position);
   double worst = 0.0;
@@ -228,4 +247,38 @@ TEST_CASE("Paths and options that are none are refused by name") {
   options.start = Eigen::Vector2d(9.0, 0.0);
   CHECK_THROWS_WITH_AS(ik.follow(seconds(3, 1.0), poses, options), doctest::Contains("start[0]"),
                        dmp::InvalidArgument);
+}
+
+TEST_CASE("Where tracking finds no way, the thorough search moves the null space in time") {
+  const Arm wide = seven_joints();
+  const Arm arm = wide.with_limits({0.6 * wide.lower(), 0.6 * wide.upper(), {}, {}});
+  InverseKinematics ik(arm);
+  std::mt19937 random(11);
+  FollowOptions quick;
+  quick.thorough = false;
+  int complete = 0, complete_at_once = 0;
+  for (int i = 0; i < 12; ++i) {
+    const Poses poses = arm.forward_kinematics(far_swing(arm, random, 400));
+    const JointTrajectory joints = ik.follow(seconds(400, 8.0), poses);
+    complete += joints.report.complete() ? 1 : 0;
+    complete_at_once += ik.follow(seconds(400, 8.0), poses, quick).report.complete() ? 1 : 0;
+    CAPTURE(joints.report.summary());
+    CHECK(within_limits(arm, joints));
+    CHECK(largest_step(joints.position) <= 0.2 + 1e-12);
+  }
+  CHECK(complete == 12);
+  CHECK(complete_at_once < 12);
+}
+
+TEST_CASE("The thorough search keeps a given start") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm);
+  std::mt19937 random(12);
+  for (int i = 0; i < 5; ++i) {
+    const RowMatrix q = far_swing(arm, random, 400);
+    FollowOptions options;
+    options.start = q.row(0).transpose();
+    const JointTrajectory joints = ik.follow(seconds(400, 8.0), arm.forward_kinematics(q), options);
+    CHECK((joints.position.row(0) - q.row(0)).norm() < 1e-9);
+  }
 }

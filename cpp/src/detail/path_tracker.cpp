@@ -36,6 +36,13 @@ double PathTracker::miss(const Vector6& error) const {
   return met ? 0.0 : position + tolerances_.angle_weight * angle;
 }
 
+std::optional<Joints> PathTracker::meet(const Frame& target, const Joints& near, const Joints& lower,
+                                        const Joints& upper) const {
+  const Descent end = lm_.descend(target, near, lower, upper, iterations_each);
+  if (miss(end.error) > 0.0) return std::nullopt;
+  return end.joints;
+}
+
 Descent PathTracker::advance(const Descent& at, const Frame& target, const Joints& step, double pull) const {
   const Joints lower = range_.lower.cwiseMax(at.joints - step),
                upper = range_.upper.cwiseMin(at.joints + step);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bounded_lm.hpp"
@@ -37,13 +38,17 @@ class PathTracker {
   Route track(const TargetPath& path, std::size_t anchor, const Joints& joints, double pull) const;
   /// The closest joints to the first pose that `start` allows, then onwards.
   Route track_from(const TargetPath& path, const Joints& start, double pull) const;
+  /// Joints in [lower, upper] that meet the target, by a descent from `near`; none if it misses.
+  std::optional<Joints> meet(const Frame& target, const Joints& near, const Joints& lower,
+                             const Joints& upper) const;
+  /// Fills in what the joints of a route are worth, but for its miss.
+  void rate(const TargetPath& path, Route& route) const;
 
  private:
   Descent advance(const Descent& at, const Frame& target, const Joints& step, double pull) const;
   void walk(const TargetPath& path, Descent at, std::size_t from, int direction, double pull,
             std::vector<Joints>& joints, double& miss) const;
   double miss(const Vector6& error) const;
-  void rate(const TargetPath& path, Route& route) const;
 
   JointRange range_;
   Joints velocity_limit_;

@@ -1,8 +1,11 @@
 #include "route_search.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "calming.hpp"
 #include "random.hpp"
+#include "roadmap.hpp"
 
 namespace dmp::detail {
 namespace {
@@ -44,6 +47,7 @@ RouteSearch::RouteSearch(const ChainModel& model, const Tolerances& tolerances, 
                          std::uint64_t random_seed)
     : options_(options),
       random_seed_(random_seed),
+      model_(model),
       range_(model),
       lm_(model, tolerances, iterations_for_a_start),
       tracker_(model, tolerances) {}
@@ -94,18 +98,48 @@ Route RouteSearch::from_start(const TargetPath& path, const Joints& start) {
   return best;
 }
 
-Route RouteSearch::best(const TargetPath& path) {
-  if (options_.start) return from_start(path, Joints(*options_.start));
+// The best routes of the thinned path, tracked through every pose.
+Route RouteSearch::from_anchors(const TargetPath& path) {
   const std::vector<std::size_t> samples = thinned_samples(path.target.size());
   std::vector<Candidate> all = candidates(pick(path, samples));
-  const std::size_t kept = std::min(refined, all.size());
+  const bool is_whole = samples.size() == path.target.size();
+  const std::size_t kept = is_whole ? 1 : std::min(refined, all.size());
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(),
                     [](const Candidate& a, const Candidate& b) { return a.route.better_than(b.route); });
+  if (is_whole) return std::move(all.front().route);
   Route best;
   for (std::size_t i = 0; i < kept; ++i) {
     Route route =
         tracker_.track(path, samples[all[i].anchor], all[i].route.joints[all[i].anchor], all[i].pull);
     if (i == 0 || route.better_than(best)) best = std::move(route);
+  }
+  return best;
+}
+
+// Small roadmaps find most ways; some ways are narrow.
+void RouteSearch::by_roadmap(const TargetPath& path, const std::optional<Joints>& start, Route& best) const {
+  constexpr std::array<RoadmapSize, 3> sizes = {
+      {{60, 60, 200, 100}, {60, 200, 500, 300}, {200, 100, 200, 300}}};
+  for (const RoadmapSize& size : sizes) {
+    const auto route = Roadmap(model_, tracker_, path, size, random_seed_, start).shortest();
+    if (!route) continue;
+    if (route->better_than(best)) best = *route;
+    return;
+  }
+}
+
+Route RouteSearch::best(const TargetPath& path) {
+  std::optional<Joints> start;
+  if (options_.start) start = Joints(*options_.start);
+  Route best = start ? from_start(path, *start) : from_anchors(path);
+  if (!options_.thorough) return best;
+  if (!best.complete()) {
+    if (start) start = best.joints.front();
+    by_roadmap(path, start, best);
+  }
+  if (!start && best.complete()) {
+    const auto calm = calmed(model_, tracker_, path, best);
+    if (calm && calm->better_than(best)) best = *calm;
   }
   return best;
 }

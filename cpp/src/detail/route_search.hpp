@@ -27,10 +27,13 @@ class RouteSearch {
   std::vector<Joints> starts(const Frame& target);
   std::vector<Candidate> candidates(const TargetPath& path);
   std::vector<double> pulls() const;
+  Route from_anchors(const TargetPath& path);
+  void by_roadmap(const TargetPath& path, const std::optional<Joints>& start, Route& best) const;
   Route from_start(const TargetPath& path, const Joints& start);
 
   const FollowOptions& options_;
   std::uint64_t random_seed_;
+  const ChainModel& model_;
   JointRange range_;
   BoundedLm lm_;
   PathTracker tracker_;

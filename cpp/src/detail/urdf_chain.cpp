@@ -1,114 +1,21 @@
 #include "urdf_chain.hpp"
 
-#include <console_bridge/console.h>
-#include <urdf_model/model.h>
-#include <urdf_parser/urdf_parser.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <dmp/error.hpp>
 #include <limits>
 #include <map>
-#include <mutex>
-#include <numeric>
 
-#include "urdf_scan.hpp"
+#include "urdf_graph.hpp"
 
 namespace dmp::detail {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Catches what urdfdom would print. console_bridge has one handler for the whole process: hence the lock.
-class CapturedLog : public console_bridge::OutputHandler {
- public:
-  CapturedLog() : lock_(mutex()), level_(console_bridge::getLogLevel()) {
-    console_bridge::useOutputHandler(this);
-    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_WARN);
-  }
-  ~CapturedLog() override {
-    console_bridge::setLogLevel(level_);
-    console_bridge::restorePreviousOutputHandler();
-  }
-  CapturedLog(const CapturedLog&) = delete;
-  CapturedLog& operator=(const CapturedLog&) = delete;
-
-  void log(const std::string& line, console_bridge::LogLevel, const char*, int) override {
-    text_ += (text_.empty() ? "" : " ") + line;
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-  std::lock_guard<std::mutex> lock_;
-  console_bridge::LogLevel level_;
-  std::string text_;
-};
-
 [[noreturn]] void refuse(const urdf::Joint& joint, const std::string& why) {
   throw InvalidArgument("urdf: joint '" + joint.name + "': " + why);
-}
-
-std::string listed(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-urdf::ModelInterfaceSharedPtr parse(const std::string& text) {
-  scan_urdf(text);
-  CapturedLog log;
-  urdf::ModelInterfaceSharedPtr model;
-  try {
-    model = urdf::parseURDF(text);
-  } catch (const std::exception& error) {
-    throw InvalidArgument(std::string("urdf: ") + error.what());
-  }
-  if (!model || !model->getRoot())
-    throw InvalidArgument("urdf: refused by urdfdom: " + (log.text().empty() ? "no root link." : log.text()));
-  return model;
-}
-
-urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std::string& name,
-                                   const std::string& argument) {
-  if (const urdf::LinkConstSharedPtr link = model.getLink(name)) return link;
-  std::vector<std::string> names;
-  for (const auto& entry : model.links_) names.push_back(entry.first);
-  throw InvalidArgument(argument + ": no link '" + name + "' in this URDF; it has: " + listed(names) + ".");
-}
-
-// The only link without children at or below `link`.
-std::string only_leaf(const urdf::Link& base) {
-  std::vector<std::string> leaves;
-  std::vector<const urdf::Link*> open = {&base};
-  while (!open.empty()) {
-    const urdf::Link* const link = open.back();
-    open.pop_back();
-    if (link->child_links.empty()) leaves.push_back(link->name);
-    for (const auto& child : link->child_links) open.push_back(child.get());
-  }
-  if (leaves.size() == 1) return leaves.front();
-  throw InvalidArgument("tip: not given, and the URDF has several ends: " + listed(leaves) +
-                        ". Name one link.");
-}
-
-using Path = std::vector<urdf::JointConstSharedPtr>;
-
-Path path_between(const urdf::ModelInterface& model, const std::string& base, const std::string& tip) {
-  Path path;
-  for (std::string link = tip; link != base;) {
-    const urdf::JointConstSharedPtr joint = model.getLink(link)->parent_joint;
-    if (!joint) throw InvalidArgument("tip: link '" + tip + "' does not hang below base '" + base + "'.");
-    path.push_back(joint);
-    link = joint->parent_link_name;
-  }
-  std::reverse(path.begin(), path.end());
-  return path;
 }
 
 bool moves(const urdf::Joint& joint) { return joint.type != urdf::Joint::FIXED; }
@@ -190,7 +97,7 @@ KDL::Frame to_kdl(const Eigen::Isometry3d& frame) {
           KDL::Vector(p.x(), p.y(), p.z())};
 }
 
-KDL::Chain chain_of(const Path& path) {
+KDL::Chain chain_of(const UrdfPath& path) {
   KDL::Chain chain;
   KDL::Joint moving(KDL::Joint::Fixed);
   Eigen::Isometry3d since = Eigen::Isometry3d::Identity();  // from the last moving joint to here
@@ -269,7 +176,7 @@ class JointTable {
   std::vector<double> velocity_, effort_;
 };
 
-void read_joints(const Path& path, ChainModel& model) {
+void read_joints(const UrdfPath& path, ChainModel& model) {
   JointTable table(model);
   for (const auto& joint : path)
     if (moves(*joint)) check_kind(*joint);
@@ -300,14 +207,14 @@ void warn_of_inertia(const urdf::Link& link, std::vector<std::string>& warnings)
 }  // namespace
 
 ChainModel read_urdf(const std::string& text, const std::string& base, const std::string& tip) {
-  const urdf::ModelInterfaceSharedPtr urdf = parse(text);
+  const urdf::ModelInterfaceSharedPtr urdf = parse_urdf(text);
   ChainModel model;
   model.name = urdf->getName();
   model.base = base.empty() ? urdf->getRoot()->name : base;
   const urdf::LinkConstSharedPtr base_link = find_link(*urdf, model.base, "base");
   model.tip = tip.empty() ? only_leaf(*base_link) : tip;
   find_link(*urdf, model.tip, "tip");
-  const Path path = path_between(*urdf, model.base, model.tip);
+  const UrdfPath path = path_between(*urdf, model.base, model.tip);
   read_joints(path, model);
   model.chain = chain_of(path);
   for (const auto& joint : path) warn_of_inertia(*urdf->getLink(joint->child_link_name), model.warnings);

@@ -1387,6 +1387,14 @@ class FollowOptions:
     @starts.setter
     def starts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
         ...
+    @property
+    def thorough(self) -> bool:
+        """
+        Search a roadmap where tracking misses a pose, and calm the null space.
+        """
+    @thorough.setter
+    def thorough(self, arg0: bool) -> None:
+        ...
 class InverseKinematics:
     """
     Joints for poses of an Arm's tip.

@@ -30,7 +30,7 @@ _COARSE = 24  # poses that stand for the motion in the first tests
 _FOLLOWED = 300  # candidates that are followed from end to end at most
 _ENOUGH = 8  # of them carried; no further ones are followed
 _MORE = 10  # times as many candidates, if none of the first is carried
-_EFFORT = {"starts": 8, "anchors": 3}  # of the search for joints along one candidate's path
+_EFFORT = {"starts": 8, "anchors": 3, "thorough": False}  # of the search for joints along one candidate's path
 _IMPROVEMENTS = 300  # small changes tried on the best one; fewer on a long path:
 _IMPROVING_POSES = 100_000  # that are followed meanwhile, about
 _STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
@@ -225,7 +225,7 @@ class _Search:
 
     def _carry(self, placement: Placement, start: Array, better_than: float = 0.0) -> _Carried | None:
         """Follow the path from `start`; None unless it is carried, worth more than that, and accepted."""
-        joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start)
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start, thorough=False)
         report = joints.report
         placement = replace(placement, start=start)
         slowdown = duration_factor(joints, self.arm.velocity_limit, arms.acceleration_limit(self.arm))
