@@ -9,8 +9,8 @@
 namespace dmp {
 namespace {
 
-// Below this a kernel adds nothing to a sum of doubles.
-constexpr double kNegligible = 1e-17;
+// A kernel that weighs less than this beside the largest adds nothing to a sum of doubles.
+constexpr double kNegligible = 2e-17;
 // exp of less would be denormal, which costs a hundred times more than a normal number.
 constexpr double kSmallestExponent = -700.0;
 
@@ -31,8 +31,11 @@ GaussianBasis GaussianBasis::equal_in_time(int count, double alpha_x, double ove
   GaussianBasis basis(count, alpha_x);
   require_positive(overlap, "overlap");
   basis.overlap_ = overlap;
-  const double reach = std::ceil(std::sqrt(-std::log(kNegligible) / overlap) + 0.5);
-  basis.reach_ = static_cast<int>(std::min(reach, static_cast<double>(count)));
+  // Beside the nearest kernel, at most half a spacing away, the one k further on weighs exp(-overlap (k^2 -
+  // k)) or less.
+  int reach = 1;
+  while (reach < count && std::exp(-overlap * (reach + 1.0) * reach) > kNegligible) ++reach;
+  basis.reach_ = reach;
   basis.capacity_ = std::min(2 * basis.reach_ + 1, count);
   for (int k = 0; k <= basis.reach_; ++k)
     basis.table_.push_back(std::exp(std::max(-overlap * k * k, kSmallestExponent)));

@@ -16,18 +16,29 @@ using Eigen::VectorXd;
 
 Index padded(Index dimension) { return (dimension + 1) / 2 * 2; }
 
+/// f = x (sum psi_k rows_k) / (sum psi_k), rows of a number of columns known when this is compiled.
 template <int Columns>
-void weighted_sum(const double* psi, int count, const double* rows, Index stride, double* f,
-                  double x) noexcept {
-  const Index columns = Columns > 0 ? Columns : stride;
-  for (Index d = 0; d < columns; ++d) f[d] = 0.0;
+void weighted_mean(const double* psi, int count, const double* rows, double x, double* f) noexcept {
+  double sum[Columns] = {};  // of its own, so that it stays in registers: f might alias the rows
+  double total = 0.0;
+  for (int k = 0; k < count; ++k) {
+    total += psi[k];
+    for (int d = 0; d < Columns; ++d) sum[d] += psi[k] * rows[k * Columns + d];
+  }
+  const double factor = x / total;
+  for (int d = 0; d < Columns; ++d) f[d] = factor * sum[d];
+}
+
+/// The same for any number of columns.
+void weighted_mean(const double* psi, int count, const double* rows, Index columns, double x,
+                   double* f) noexcept {
+  std::fill_n(f, columns, 0.0);
   double total = 0.0;
   for (int k = 0; k < count; ++k) {
     total += psi[k];
     for (Index d = 0; d < columns; ++d) f[d] += psi[k] * rows[k * columns + d];
   }
-  const double factor = x / total;
-  for (Index d = 0; d < columns; ++d) f[d] *= factor;
+  for (Index d = 0; d < columns; ++d) f[d] *= x / total;
 }
 
 /// How much of the phase each sample stands for, their mean being 1: a uniform grid has equal shares.
@@ -50,31 +61,31 @@ class NormalEquations {
         local_(local),
         gram_(RowMatrix::Zero(basis.count(), basis.window_capacity())),
         right_(RowMatrix::Zero(basis.count(), axes)),
-        norm_(VectorXd::Zero(basis.count())),
-        psi_(basis.window_capacity()) {}
+        norm_(VectorXd::Zero(basis.count())) {}
 
   /// Adds the samples of one demonstration; axes first .. first + axes - 1 of the target, all with one scale.
   void add(const ForcingTarget& target, Index first, double scale) {
     const VectorXd share = shares(target.s);
+    Group group(basis_.window_capacity(), right_.cols());
     for (Index k = 0; k < target.s.size(); ++k) {
-      const GaussianBasis::Window window = basis_.activations(target.s[k], psi_.data());
-      const double total = psi_.head(window.count).sum();
+      const GaussianBasis::Window window = basis_.activations(target.s[k], group.scratch.data());
+      if (!group.takes(window)) flush(group);
+      const double total = group.scratch.head(window.count).sum();
       if (total == 0.0) continue;
       const double x = std::exp(-basis_.alpha_x() * target.s[k]) * scale;
       const double weight = local_ ? share[k] : share[k] / total;
-      add_sample(window, weight * x * x / total,
-                 weight * x * target.value.row(k).segment(first, right_.cols()));
-      norm_.segment(window.first, window.count) += share[k] * x * x * psi_.head(window.count);
+      group.add(window, weight * x * x / total, share[k] * x * x, weight * x,
+                target.value.row(k).data() + first);
     }
+    flush(group);
   }
 
   RowMatrix solve_lwr(int passes) const {
-    RowMatrix weights = RowMatrix::Zero(right_.rows(), right_.cols());
-    for (int pass = 0; pass < passes; ++pass) {
-      const RowMatrix residual = right_ - times_gram(weights);
-      for (Index i = 0; i < weights.rows(); ++i)
-        if (norm_[i] > 0.0) weights.row(i) += residual.row(i) / norm_[i];
-    }
+    const Eigen::MatrixXd gram = diagonals();
+    const Eigen::MatrixXd right = right_;
+    const VectorXd step = (norm_.array() > 0.0).select(norm_.cwiseInverse(), 0.0);
+    Eigen::MatrixXd weights = step.asDiagonal() * right;
+    for (int pass = 1; pass < passes; ++pass) weights += step.asDiagonal() * (right - times(gram, weights));
     return weights;
   }
 
@@ -98,6 +109,48 @@ class NormalEquations {
   }
 
  private:
+  /// Neighbouring samples under the same kernels: their sums are products of small matrices.
+  struct Group {
+    Group(Index kernels, Index axes)
+        : scratch(kernels), psi(kMost, kernels), gram(kMost), norm(kMost), value(kMost, axes) {}
+
+    bool takes(const GaussianBasis::Window& next) const {
+      return size == 0 || (size < kMost && next.first == window.first && next.count == window.count);
+    }
+    void add(const GaussianBasis::Window& at, double gram_weight, double norm_weight, double value_weight,
+             const double* f) {
+      window = at;
+      psi.row(size).head(at.count) = scratch.head(at.count).transpose();
+      gram[size] = gram_weight;
+      norm[size] = norm_weight;
+      for (Index d = 0; d < value.cols(); ++d) value(size, d) = value_weight * f[d];
+      ++size;
+    }
+
+    static constexpr Index kMost = 64;
+    VectorXd scratch;
+    RowMatrix psi;
+    VectorXd gram;
+    VectorXd norm;
+    RowMatrix value;
+    GaussianBasis::Window window{0, 0};
+    Index size = 0;
+  };
+
+  void flush(Group& group) {
+    if (group.size == 0) return;
+    const Index first = group.window.first;
+    const Index count = group.window.count;
+    const auto psi = group.psi.topLeftCorner(group.size, count);
+    const RowMatrix weighted = group.gram.head(group.size).asDiagonal() * psi;
+    const RowMatrix block = psi.transpose() * weighted;
+    for (Index a = 0; a < count; ++a)
+      for (Index b = a; b < count; ++b) gram_(first + a, b - a) += block(a, b);
+    right_.middleRows(first, count).noalias() += psi.transpose() * group.value.topRows(group.size);
+    norm_.segment(first, count).noalias() += psi.transpose() * group.norm.head(group.size);
+    group.size = 0;
+  }
+
   /// The lower triangle of the Gram matrix with the ridge on its diagonal.
   Eigen::MatrixXd with_ridge(double ridge) const {
     const Index n = gram_.rows();
@@ -108,21 +161,22 @@ class NormalEquations {
     return full;
   }
 
-  void add_sample(const GaussianBasis::Window& window, double factor, const Eigen::RowVectorXd& value) {
-    for (int a = 0; a < window.count; ++a) {
-      const Index rest = window.count - a;
-      gram_.row(window.first + a).head(rest) += factor * psi_[a] * psi_.segment(a, rest).transpose();
-      right_.row(window.first + a) += psi_[a] * value;
-    }
-  }
+  /// (i, k) = G(i, i + k) for all i of a column, as long as i + k is a kernel.
+  Eigen::MatrixXd diagonals() const { return gram_; }
 
-  /// gram_ holds the upper band of a symmetric matrix: gram_(i, k) = G(i, i + k).
-  RowMatrix times_gram(const RowMatrix& weights) const {
-    RowMatrix product = RowMatrix::Zero(weights.rows(), weights.cols());
-    for (Index i = 0; i < gram_.rows(); ++i) {
-      const Index width = std::min(gram_.cols(), gram_.rows() - i);
-      product.row(i) += gram_.row(i).head(width) * weights.middleRows(i, width);
-      for (Index k = 1; k < width; ++k) product.row(i + k) += gram_(i, k) * weights.row(i);
+  /// The symmetric band times the weights, diagonal by diagonal: long vectors instead of many short ones.
+  static Eigen::MatrixXd times(const Eigen::MatrixXd& diagonals, const Eigen::MatrixXd& weights) {
+    const Index n = weights.rows();
+    Eigen::MatrixXd product(n, weights.cols());
+    for (Index d = 0; d < weights.cols(); ++d) {
+      const auto w = weights.col(d);
+      auto p = product.col(d);
+      p = diagonals.col(0).cwiseProduct(w);
+      for (Index k = 1; k < std::min(diagonals.cols(), n); ++k) {
+        const auto g = diagonals.col(k).head(n - k);
+        p.head(n - k) += g.cwiseProduct(w.tail(n - k));
+        p.tail(n - k) += g.cwiseProduct(w.head(n - k));
+      }
     }
     return product;
   }
@@ -132,7 +186,6 @@ class NormalEquations {
   RowMatrix gram_;
   RowMatrix right_;
   VectorXd norm_;
-  VectorXd psi_;
 };
 
 bool one_scale(const std::vector<ForcingTarget>& targets) {
@@ -184,13 +237,13 @@ void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {
   const double* rows = rows_.data() + window.first * rows_.cols();
   switch (rows_.cols()) {
     case 2:
-      return weighted_sum<2>(psi, window.count, rows, 2, f, x);
+      return weighted_mean<2>(psi, window.count, rows, x, f);
     case 4:
-      return weighted_sum<4>(psi, window.count, rows, 4, f, x);
+      return weighted_mean<4>(psi, window.count, rows, x, f);
     case 6:
-      return weighted_sum<6>(psi, window.count, rows, 6, f, x);
+      return weighted_mean<6>(psi, window.count, rows, x, f);
     default:
-      return weighted_sum<0>(psi, window.count, rows, rows_.cols(), f, x);
+      return weighted_mean(psi, window.count, rows, rows_.cols(), x, f);
   }
 }
 

@@ -152,6 +152,8 @@ Vector3d log(const Matrix3d& r) noexcept { return log(shepperd(r)); }
 
 Vector3d lifted_log(const Quaterniond& q, const Vector3d& previous) noexcept {
   const Vector3d principal = log(q);
+  // The branches lie 2 pi apart: one less than pi away is the nearest.
+  if ((principal - previous).squaredNorm() < kPi * kPi) return principal;
   const double theta = principal.norm();
   if (theta < 1e-3) {  // near a whole turn the axis is lost in rounding: keep the previous one
     const double length = previous.norm();

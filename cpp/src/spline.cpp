@@ -19,6 +19,10 @@ using Eigen::Index;
 /// the solution.
 void solve_banded(RowMatrix& band, RowMatrix& b, Index half) {
   const Index n = band.rows();
+  const Index columns = b.cols();
+  const auto subtract = [columns](double factor, const double* from, double* row) {
+    for (Index c = 0; c < columns; ++c) row[c] -= factor * from[c];
+  };
   for (Index i = 0; i < n; ++i) {
     const Index last = std::min(i + half, n - 1);
     for (Index r = i + 1; r <= last; ++r) {
@@ -26,12 +30,24 @@ void solve_banded(RowMatrix& band, RowMatrix& b, Index half) {
       if (below == 0.0) continue;
       const double factor = below / band(i, half);
       for (Index c = i; c <= last; ++c) band(r, c - r + half) -= factor * band(i, c - i + half);
-      b.row(r) -= factor * b.row(i);
+      subtract(factor, b.row(i).data(), b.row(r).data());
     }
   }
   for (Index i = n - 1; i >= 0; --i) {
-    for (Index c = i + 1; c <= std::min(i + half, n - 1); ++c) b.row(i) -= band(i, c - i + half) * b.row(c);
-    b.row(i) /= band(i, half);
+    double* const row = b.row(i).data();
+    for (Index c = i + 1; c <= std::min(i + half, n - 1); ++c)
+      subtract(band(i, c - i + half), b.row(c).data(), row);
+    for (Index c = 0; c < columns; ++c) row[c] /= band(i, half);
+  }
+}
+
+/// row_c = sum_j basis_j coefficient_jc, rows of coefficients one behind the other.
+void blend(const std::array<double, 6>& basis, int degree, const double* coefficient, Index dims,
+           double* row) {
+  for (Index c = 0; c < dims; ++c) {
+    double sum = basis[0] * coefficient[c];
+    for (int j = 1; j <= degree; ++j) sum += basis[j] * coefficient[j * dims + c];
+    row[c] = sum;
   }
 }
 
@@ -103,17 +119,16 @@ void Spline::differentiate() {
 
 Spline::Samples Spline::sample(const Eigen::VectorXd& times) const {
   const Index n = times.size();
-  Samples samples{RowMatrix::Zero(n, dimension()), RowMatrix::Zero(n, dimension()),
-                  RowMatrix::Zero(n, dimension())};
+  const Index dims = dimension();
+  Samples samples{RowMatrix(n, dims), RowMatrix(n, dims), RowMatrix(n, dims)};
   std::array<RowMatrix*, 3> out{&samples.value, &samples.first, &samples.second};
+  for (int d = degree_ + 1; d <= 2; ++d) out[d]->setZero();
   for (Index k = 0; k < n; ++k) {
     const Index at = interval(times[k]);
     const LocalBasis basis(knots_.data(), at, degree_, times[k]);
-    for (int d = 0; d <= std::min(2, degree_); ++d) {
-      const int degree = degree_ - d;
-      for (Index j = 0; j <= degree; ++j)
-        out[d]->row(k) += basis.values[d][j] * coefficients_[d].row(at - degree_ + j);
-    }
+    for (int d = 0; d <= std::min(2, degree_); ++d)
+      blend(basis.values[d], degree_ - d, coefficients_[d].row(at - degree_).data(), dims,
+            out[d]->row(k).data());
   }
   return samples;
 }

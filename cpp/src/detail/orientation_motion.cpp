@@ -18,6 +18,46 @@ Vector3d small_inverse_jacobian(const Vector3d& u, const Vector3d& v) noexcept {
   return v - 0.5 * uv + u.cross(uv) / 12.0;
 }
 
+/// omega and its rate for R = Exp(p) Rg, from p' and p'': omega = J_l(p) p', J_l = 1 + a [p]x + b [p]x^2 with
+/// a = (1 - cos theta) / theta^2, b = (theta - sin theta) / theta^3.
+class ExponentialRates {
+ public:
+  explicit ExponentialRates(const Vector3d& p) noexcept : p_(p) {
+    const double t = p.squaredNorm();
+    if (t < 0.0025) {
+      a_ = 0.5 + t * (-1.0 / 24 + t * (1.0 / 720 - t / 40320));
+      b_ = 1.0 / 6 + t * (-1.0 / 120 + t * (1.0 / 5040 - t / 362880));
+      a_rate_ = -1.0 / 12 + t * (1.0 / 180 - t / 6720);
+      b_rate_ = -1.0 / 60 + t * (1.0 / 1260 - t / 60480);
+      return;
+    }
+    const double theta = std::sqrt(t);
+    const double s = std::sin(0.5 * theta);
+    const double c = std::cos(0.5 * theta);
+    a_ = 2.0 * s * s / t;
+    b_ = (theta - 2.0 * s * c) / (t * theta);
+    a_rate_ = (1.0 - t * b_ - 2.0 * a_) / t;
+    b_rate_ = (a_ - 3.0 * b_) / t;
+  }
+
+  Vector3d velocity(const Vector3d& v) const noexcept {
+    const Vector3d pv = p_.cross(v);
+    return v + a_ * pv + b_ * p_.cross(pv);
+  }
+  Vector3d acceleration(const Vector3d& v, const Vector3d& v_rate) const noexcept {
+    const Vector3d pv = p_.cross(v);
+    const double along = p_.dot(v);
+    return velocity(v_rate) + along * (a_rate_ * pv + b_rate_ * p_.cross(pv)) + b_ * v.cross(pv);
+  }
+
+ private:
+  Vector3d p_;
+  double a_;
+  double b_;
+  double a_rate_;  // da/dt = a_rate_ (p . p')
+  double b_rate_;
+};
+
 /// Back to length 1 to first order: the steps leave it by rounding only.
 void renormalise(Quaterniond& q) noexcept { q.coeffs() *= 1.5 - 0.5 * q.squaredNorm(); }
 
@@ -37,11 +77,13 @@ OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Mat
       q_(start),
       eta_(eta),
       e_(start_error),
+      z_(Vector3d::Zero()),
       goal_(goal),
       target_(goal),
       start_(q_),
       rotation_(q_) {
   scale_.set(e_);
+  z_ = so3::left_jacobian_inverse(-e_) * eta_;
 }
 
 Vector3d OrientationMotion::error(const Quaterniond& goal, const Quaterniond& q) const noexcept {
@@ -75,7 +117,12 @@ void OrientationMotion::start_with_goal(const Quaterniond& goal) noexcept {
 void OrientationMotion::jump_to_goal() noexcept {
   goal_ = target_;
   settled_ = true;
+  follow_goal();
+}
+
+void OrientationMotion::follow_goal() noexcept {
   e_ = error(goal_, q_);
+  if (form_ == OrientationForm::log_linear) z_ = so3::left_jacobian_inverse(-e_) * eta_;
 }
 
 const double* OrientationMotion::scaled(const double* forcing, int node) noexcept {
@@ -147,15 +194,14 @@ void OrientationMotion::advance_log_linear(double step, const double* start, con
                                            const double* end) noexcept {
   if (!settled_) {  // the goal stands still within a step; R and omega do not jump
     goal_ = filtered_goal(step);
-    e_ = error(goal_, q_);
+    follow_goal();
   }
   spring_.prepare(step);
   Vector3d p = -e_;
-  Vector3d z = so3::left_jacobian_inverse(p) * eta_;
-  for (int d = 0; d < 3; ++d) spring_.advance(p[d], z[d], start[d], middle[d], end[d]);
-  q_ = so3::exp_quaternion(p) * goal_;
-  eta_ = so3::left_jacobian(p) * z;
+  for (int d = 0; d < 3; ++d) spring_.advance(p[d], z_[d], start[d], middle[d], end[d]);
   e_ = -p;
+  q_ = so3::exp_quaternion(p) * goal_;
+  eta_ = ExponentialRates(p).velocity(z_);
 }
 
 void OrientationMotion::advance_euler(double step, const double* end) noexcept {
@@ -169,16 +215,13 @@ void OrientationMotion::advance_euler(double step, const double* end) noexcept {
 void OrientationMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
   rotation_ = q_;
   velocity_ = eta_ * speed;
-  Vector3d change = acceleration(e_, eta_, scaled(forcing, 3));
+  const double* const f = scaled(forcing, 3);
+  Vector3d change;
   if (form_ == OrientationForm::log_linear) {
-    // omega' = J_l z' + J_l' z, the second by a difference quotient along p' = z
-    const Vector3d p = -e_;
-    const Vector3d z = so3::left_jacobian_inverse(p) * eta_;
-    const double* f = scaled(forcing, 3);
-    const Vector3d zs = -spring_.stiffness() * p - spring_.alpha() * z + Vector3d(f[0], f[1], f[2]);
-    constexpr double h = 1e-5;
-    const Vector3d turning = (so3::left_jacobian(p + h * z) - so3::left_jacobian(p - h * z)) * z / (2.0 * h);
-    change = so3::left_jacobian(p) * zs + turning;
+    const Vector3d zs = spring_.stiffness() * e_ - spring_.alpha() * z_ + Vector3d(f[0], f[1], f[2]);
+    change = ExponentialRates(-e_).acceleration(z_, zs);
+  } else {
+    change = acceleration(e_, eta_, f);
   }
   acceleration_ = change * (speed * speed) + eta_ * speed_rate;
 }

@@ -36,6 +36,8 @@ class OrientationMotion {
 
  private:
   void jump_to_goal() noexcept;
+  /// e_ anew, after the goal or R changed by other than a step, and z_ so that omega stays.
+  void follow_goal() noexcept;
   void advance_ude(double step, const double* start, const double* middle, const double* end) noexcept;
   void advance_log_linear(double step, const double* start, const double* middle, const double* end) noexcept;
   void advance_euler(double step, const double* end) noexcept;
@@ -59,6 +61,7 @@ class OrientationMotion {
   Eigen::Quaterniond q_;
   Eigen::Vector3d eta_;
   Eigen::Vector3d e_;
+  Eigen::Vector3d z_;          // p' of the log-linear form, p = -e_
   Eigen::Quaterniond goal_;    // as filtered
   Eigen::Quaterniond target_;  // as set
   Eigen::Quaterniond start_;

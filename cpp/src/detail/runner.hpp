@@ -63,7 +63,7 @@ class Runner {
   void reset_phase() noexcept { phase_.reset(); }
   void restart() noexcept {
     phase_.reset();
-    evaluated_at_ = -1.0;
+    evaluated_at_ = kNowhere;
     status_ = Status::running;
     publish();
   }
@@ -71,14 +71,15 @@ class Runner {
   /// Outputs from the state as it is.
   void publish() noexcept {
     const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
-    evaluate(kEnd, phase_.s(), on);
-    evaluated_at_ = on ? phase_.s() : -1.0;
+    if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
+    evaluated_at_ = on ? phase_.s() : kNowhere;
     motion_.publish(phase_.speed(), phase_.speed_rate(), node(kEnd));
   }
 
  private:
   static constexpr double kRounding = 1e-9;
   static constexpr double kFarthest = 100.0;  // durations in one call: bounds the work
+  static constexpr double kNowhere = -1.0;
   enum Node : Eigen::Index { kStart, kMiddle, kEnd };
 
   static double largest_rate(const DmpOptions& options) {
@@ -86,6 +87,8 @@ class Runner {
   }
 
   Status accepted(bool accepted) const noexcept { return accepted ? status_ : Status::invalid_input; }
+  /// Whether the last node holds the forcing term at s, but for rounding.
+  bool evaluated(double s) const noexcept { return std::abs(s - evaluated_at_) < 1e-13; }
   double* node(Node which) noexcept { return nodes_.row(which).data(); }
 
   void evaluate(Node which, double s, bool on) noexcept {
@@ -113,14 +116,14 @@ class Runner {
   }
 
   void advance_once(double s, double piece, bool on) noexcept {
-    if (on && std::abs(s - evaluated_at_) < 1e-13) {
+    if (on && evaluated(s)) {
       std::copy_n(node(kEnd), nodes_.cols(), node(kStart));
     } else {
       evaluate(kStart, s, on);
     }
     evaluate(kMiddle, s + 0.5 * piece, on);
     evaluate(kEnd, s + piece, on);
-    evaluated_at_ = on ? s + piece : -1.0;
+    evaluated_at_ = on ? s + piece : kNowhere;
     motion_.advance(piece, {node(kStart), node(kMiddle), node(kEnd)});
   }
 
@@ -129,7 +132,7 @@ class Runner {
   Motion motion_;
   RowMatrix nodes_;
   Eigen::VectorXd psi_;
-  double evaluated_at_ = -1.0;  // the phase whose forcing stands in the last node
+  double evaluated_at_ = kNowhere;  // the phase whose forcing stands in the last node
   bool divides_;
   bool force_after_end_;
   double largest_step_;

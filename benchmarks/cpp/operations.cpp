@@ -1,0 +1,112 @@
+// One operation of the core, repeated: what scripts count instructions of and what prints thread-CPU times.
+//   operations NAME REPEATS     runs it REPEATS times and prints nothing (for callgrind)
+//   operations                  prints a table of medians
+#include <dmp/file.hpp>
+#include <dmp/so3.hpp>
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace dmp;
+
+constexpr int kSamples = 1000;
+constexpr double kStep = 0.005;  // s
+
+double minimum_jerk(double s) { return s * s * s * (10 - 15 * s + 6 * s * s); }
+
+Eigen::VectorXd times() { return kStep * Eigen::VectorXd::LinSpaced(kSamples, 0.0, kSamples - 1.0); }
+
+RowMatrix reach() {
+  RowMatrix y(kSamples, 3);
+  for (int k = 0; k < kSamples; ++k)
+    y.row(k) = minimum_jerk(k / (kSamples - 1.0)) * Eigen::RowVector3d(.3, -.2, .4);
+  return y;
+}
+
+Poses poses() {
+  const RowMatrix y = reach();
+  Poses result;
+  for (int k = 0; k < kSamples; ++k) {
+    const double u = 3.0 * k / (kSamples - 1.0);
+    result.push_back(pose_of(so3::from_euler({.8 * std::sin(u), .5 * std::cos(u), .6 * u}, "ZYX"), y.row(k)));
+  }
+  return result;
+}
+
+DmpOptions log_linear() {
+  DmpOptions options;
+  options.orientation_form = OrientationForm::log_linear;
+  return options;
+}
+
+template <class Run>
+std::function<void()> stepping(Run run) {
+  return [run = std::move(run)]() mutable {
+    if (run.step(kStep) == Status::finished) run.reset();
+  };
+}
+
+std::map<std::string, std::function<void()>> operations() {
+  const Eigen::VectorXd t = times();
+  const RowMatrix y = reach();
+  const Poses p = poses();
+  const Demonstration positions(t, y);
+  const PoseDemonstration both(t, p);
+  const Dmp dmp = Dmp::fit(positions);
+  const PoseDmp pose = PoseDmp::fit(both);
+  return {
+      {"step_position", stepping(Run(dmp))},
+      {"step_pose", stepping(PoseRun(pose))},
+      {"step_pose_log_linear", stepping(PoseRun(PoseDmp::fit(both, log_linear())))},
+      {"fit_position", [t, y] { Dmp::fit(Demonstration(t, y)); }},
+      {"fit_pose", [t, p] { PoseDmp::fit(PoseDemonstration(t, p)); }},
+      {"rollout_position", [dmp] { dmp.rollout({}, {}, kStep); }},
+      {"rollout_pose", [pose] { pose.rollout({}, {}, kStep); }},
+  };
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double median_seconds(const std::function<void()>& operation) {
+  int repeats = 1;
+  std::vector<double> found;
+  while (found.size() < 15) {
+    const double begin = thread_seconds();
+    for (int i = 0; i < repeats; ++i) operation();
+    const double spent = thread_seconds() - begin;
+    if (spent < 0.02) {
+      repeats *= 2;
+    } else {
+      found.push_back(spent / repeats);
+    }
+  }
+  std::nth_element(found.begin(), found.begin() + 7, found.end());
+  return found[7];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto all = operations();
+  if (argc == 3) {
+    const auto& operation = all.at(argv[1]);
+    for (long i = std::atol(argv[2]); i > 0; --i) operation();
+    return 0;
+  }
+  for (const auto& [name, operation] : all)
+    std::printf("%-22s %10.3f us\n", name.c_str(), 1e6 * median_seconds(operation));
+}
