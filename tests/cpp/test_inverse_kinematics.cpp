@@ -221,6 +221,24 @@ TEST_CASE("KDL's solvers that diverge leave finite joints within the limits") {
   }
 }
 
+TEST_CASE("A tolerance below what numbers can hold is missed by next to nothing") {
+  const Arm arm = seven_joints();
+  std::mt19937 random(10);
+  for (const dmp::IkBackend backend :
+       {dmp::IkBackend::bounded_lm, dmp::IkBackend::kdl_lma, dmp::IkBackend::kdl_nr_jl}) {
+    dmp::IkOptions options;
+    options.backend = backend;
+    options.position_tolerance = options.angle_tolerance = 1e-18;
+    options.diagnose = false;
+    InverseKinematics ik(arm, options);
+    for (int k = 0; k < 20; ++k) {
+      const IkResult found = ik.solve(arm.forward_kinematics(arms::random_joints(arm, random)));
+      REQUIRE(within_limits(arm, found.joints));
+      REQUIRE(found.position_error < 1e-8);
+    }
+  }
+}
+
 TEST_CASE("A pose at the end of the numbers is missed and nothing else") {
   const Arm arm = seven_joints();
   InverseKinematics ik(arm);
