@@ -205,6 +205,53 @@ TEST_CASE("KDL's own solvers answer through the same search, held to the same li
   }
 }
 
+TEST_CASE("KDL's solvers that diverge leave finite joints within the limits") {
+  dmp::IkOptions options;
+  options.backend = dmp::IkBackend::kdl_nr_jl;
+  options.diagnose = false;
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm, options);
+  std::mt19937 random(9);
+  for (int k = 0; k < 100; ++k) {
+    Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+    pose.topRightCorner<3, 1>() *= 1.5;
+    const IkResult found = ik.solve(pose, arms::random_joints(arm, random));
+    REQUIRE(within_limits(arm, found.joints));
+    REQUIRE(std::isfinite(found.position_error));
+  }
+}
+
+TEST_CASE("A tolerance below what numbers can hold is missed by next to nothing") {
+  const Arm arm = seven_joints();
+  std::mt19937 random(10);
+  for (const dmp::IkBackend backend :
+       {dmp::IkBackend::bounded_lm, dmp::IkBackend::kdl_lma, dmp::IkBackend::kdl_nr_jl}) {
+    dmp::IkOptions options;
+    options.backend = backend;
+    options.position_tolerance = options.angle_tolerance = 1e-18;
+    options.diagnose = false;
+    InverseKinematics ik(arm, options);
+    for (int k = 0; k < 20; ++k) {
+      const IkResult found = ik.solve(arm.forward_kinematics(arms::random_joints(arm, random)));
+      REQUIRE(within_limits(arm, found.joints));
+      REQUIRE(found.position_error < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("A pose at the end of the numbers is missed and nothing else") {
+  const Arm arm = seven_joints();
+  InverseKinematics ik(arm);
+  for (const double far : {1e6, 1e150, 1e300}) {
+    Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+    pose.topRightCorner<3, 1>().setConstant(far);
+    const IkResult found = ik.solve(pose);
+    CAPTURE(far);
+    CHECK_FALSE(found.ok());
+    CHECK(within_limits(arm, found.joints));
+  }
+}
+
 TEST_CASE("KDL's solvers are refused for joints they do not know") {
   const Arm arm = Arm::from_urdf(arms::urdf({{"", R"(<axis xyz="0 0 1"/>)", "continuous", ""}}));
   dmp::IkOptions options;

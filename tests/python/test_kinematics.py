@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import dmpcpp
 import numpy as np
 import pytest
-from dmpcpp import Arm, IkStatus, InverseKinematics, JointTrajectory
+from dmpcpp import Arm, IkBackend, IkStatus, InverseKinematics, JointTrajectory
 
 pybullet = pytest.importorskip("pybullet")
 pybullet_data = pytest.importorskip("pybullet_data")
@@ -173,6 +173,18 @@ def test_a_solution_tells_what_it_is_worth(panda: Arm) -> None:
     margin = np.minimum(found.joints - panda.lower, panda.upper - found.joints).min()
     assert found.limit_margin == pytest.approx(margin)
     assert found.blocked == []
+
+
+@pytest.mark.parametrize("backend", list(IkBackend))
+def test_joints_are_within_the_limits_even_where_a_backend_fails(arm: Arm, backend: IkBackend) -> None:
+    random = np.random.default_rng(1)
+    goals = arm.forward_kinematics(random.uniform(arm.lower, arm.upper, (1000, arm.joint_count)))[:40]
+    seeds = random.uniform(arm.lower, arm.upper, (1000, arm.joint_count))
+    solver = InverseKinematics(arm, backend=backend, position_tolerance=5e-6, angle_tolerance=5e-6, diagnose=False)
+    for goal, seed in zip(goals, seeds, strict=False):
+        found = solver.solve(goal, seed)
+        assert np.all(found.joints >= arm.lower) and np.all(found.joints <= arm.upper)
+        assert np.isfinite(found.position_error) and np.isfinite(found.angle_error)
 
 
 def test_a_pose_out_of_reach_gives_the_closest_joints_and_says_so(panda: Arm) -> None:

@@ -123,7 +123,7 @@ Joints BoundedLm::closest(const Frame& target, const Joints& start, const Joints
     damping *=
         distance - next_distance > 0.5 * promised ? 0.3 : 4.0;  // a promise half kept is a step too far
     idle = next_distance < distance * (1.0 - 1e-9) ? 0 : idle + 1;
-    if (next_distance >= distance) continue;
+    if (!(next_distance < distance)) continue;
     best = joints;
     jacobian = next_jacobian;
     miss = next;

@@ -47,6 +47,8 @@ class BoundedLm final : public KDL::ChainIkSolverPos {
   /// at every step with one over the norms.
   Joints closest(const Frame& target, const Joints& start, const Joints& lower, const Joints& upper) const;
 
+  const FlatChain& chain() const { return chain_; }
+
  private:
   bool within_tolerances(const Vector6& miss) const;
 

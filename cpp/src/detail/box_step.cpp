@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace dmp::detail {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr int size = 6;
 using Lower = std::array<std::array<double, size>, size>;  // [column][row], rows >= column
 
+constexpr double least_pivot = 1e-15;  // of the largest; rounding may leave less, or a negative one
 using OnSide = std::array<bool, joint_capacity>;
 
 // J J^T + damping I over the joints that are free to move.
@@ -29,8 +31,10 @@ Lower damped_square(const Jacobian& jacobian, const OnSide& on_side, double damp
 // where the solver's time goes: three times as fast as Eigen's LLT here.
 Vector6 solve(Lower l, Vector6 x) {
   std::array<double, size> inverse;
+  double largest = std::numeric_limits<double>::min();
+  for (int c = 0; c < size; ++c) largest = std::max(largest, l[c][c]);
   for (int c = 0; c < size; ++c) {
-    inverse[c] = 1.0 / std::sqrt(l[c][c]);
+    inverse[c] = 1.0 / std::sqrt(std::max(l[c][c], least_pivot * largest));
     for (int r = c; r < size; ++r) l[c][r] *= inverse[c];
     for (int k = c + 1; k < size; ++k)
       for (int r = k; r < size; ++r) l[k][r] -= l[c][k] * l[c][r];

@@ -11,6 +11,8 @@ KDL::JntArray to_kdl(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return array;
 }
 
+constexpr double largest_joint = 1e6;  // rad or m, beyond which no winding is worth taking back
+
 const ChainModel& plain(const ChainModel& model) {
   if (model.couplings.size() != model.joint_names.size())
     throw InvalidArgument("options.backend: KDL's solvers do not know mimic joints; use bounded_lm.");
@@ -46,7 +48,9 @@ int KdlBackend::descend(const Frame& target, const Joints& seed, const Joints& l
     newton_.setJointLimits(to_kdl(lower), to_kdl(upper));
     newton_.CartToJnt(seed_, detail::to_kdl(target), joints_);
   }
-  const Joints found = joints_.data.allFinite() ? Joints(joints_.data) : seed;
+  // Newton-Raphson may diverge to anything, NaN included.
+  const bool is_sane = joints_.data.allFinite() && joints_.data.cwiseAbs().maxCoeff() < largest_joint;
+  const Joints found = is_sane ? Joints(joints_.data) : seed;
   joints = range_.nearest_winding(found, seed, lower, upper).cwiseMax(lower).cwiseMin(upper);
   return lma_wanted_ ? std::max(lma_.lastNrOfIter, 1) : iterations_each;
 }

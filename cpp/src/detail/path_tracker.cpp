@@ -43,6 +43,10 @@ std::optional<Joints> PathTracker::meet(const Frame& target, const Joints& near,
   return end.joints;
 }
 
+bool PathTracker::meets(const Frame& target, const Joints& joints) const {
+  return miss(pose_error(target, lm_.chain().forward(joints))) == 0.0;
+}
+
 Descent PathTracker::advance(const Descent& at, const Frame& target, const Joints& step, double pull) const {
   const Joints lower = range_.lower.cwiseMax(at.joints - step),
                upper = range_.upper.cwiseMin(at.joints + step);

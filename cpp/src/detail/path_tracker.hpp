@@ -41,6 +41,7 @@ class PathTracker {
   /// Joints in [lower, upper] that meet the target, by a descent from `near`; none if it misses.
   std::optional<Joints> meet(const Frame& target, const Joints& near, const Joints& lower,
                              const Joints& upper) const;
+  bool meets(const Frame& target, const Joints& joints) const;
   /// Fills in what the joints of a route are worth, but for its miss.
   void rate(const TargetPath& path, Route& route) const;
 

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t thinned_size = 100;
 constexpr std::size_t refined = 4;  // routes of the thinned path that are tracked through every pose
 constexpr int iterations_for_a_start = 60;
+constexpr double ample_margin = 0.1;   // rad or m, with which a route needs no pull away from the limits
 constexpr double same_posture = 1e-3;  // rad or m
 
 // Every stride-th sample and the last one.
@@ -94,6 +95,7 @@ Route RouteSearch::from_start(const TargetPath& path, const Joints& start) {
   for (const double pull : pulls()) {
     Route route = tracker_.track_from(path, start, pull);
     if (routes_tried_++ == 0 || route.better_than(best)) best = std::move(route);
+    if (best.complete() && best.margin > ample_margin) break;
   }
   return best;
 }
@@ -133,10 +135,9 @@ Route RouteSearch::best(const TargetPath& path) {
   if (options_.start) start = Joints(*options_.start);
   Route best = start ? from_start(path, *start) : from_anchors(path);
   if (!options_.thorough) return best;
-  if (!best.complete()) {
-    if (start) start = best.joints.front();
+  if (start) start = best.joints.front();  // as close to the first pose as the robot comes
+  if (!best.complete() && (!start || tracker_.meets(path.target.front(), *start)))
     by_roadmap(path, start, best);
-  }
   if (!start && best.complete()) {
     const auto calm = calmed(model_, tracker_, path, best);
     if (calm && calm->better_than(best)) best = *calm;
