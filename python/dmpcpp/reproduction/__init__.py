@@ -1,0 +1,39 @@
+"""The source's own experiments, repeated: under its own equations and under the defaults of this library.
+
+>>> from dmpcpp import reproduction
+>>> run = reproduction.reproduce(repeat=20)                    # doctest: +SKIP
+>>> run.ok, run.helix.errors["default"].max                    # doctest: +SKIP
+>>> reproduction.write(run, "dmpcpp-reproduction")             # doctest: +SKIP
+
+The source is the thesis proposal of 2019 behind `DmpOptions.source()`: docs/formulation.md.
+"""
+
+from dmpcpp.reproduction.experiments import (
+    PRESETS,
+    AngleErrors,
+    AxisErrors,
+    PositionExperiment,
+    RotationExperiment,
+    helix,
+    rotation,
+)
+from dmpcpp.reproduction.files import write
+from dmpcpp.reproduction.repetition import NoiseLevel, Statistics, repetition
+from dmpcpp.reproduction.run import SOURCE_ERRORS, Reproduction, reproduce
+
+__all__ = [
+    "PRESETS",
+    "SOURCE_ERRORS",
+    "AngleErrors",
+    "AxisErrors",
+    "NoiseLevel",
+    "PositionExperiment",
+    "Reproduction",
+    "RotationExperiment",
+    "Statistics",
+    "helix",
+    "repetition",
+    "reproduce",
+    "rotation",
+    "write",
+]
