@@ -203,7 +203,8 @@ def _print(run: Imitation, out: Path) -> None:
     for line in run.recording.history:
         console.print(f"[dim]{line}[/dim]", soft_wrap=True, markup=True)
     console.print(
-        f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, {run.slowdown:.2f} x the recorded duration"
+        f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, "
+        f"{run.slowdown:.2f} x the recorded duration"
     )
     console.print(_errors_table(run, Table))
     console.print(_checks_table(run, Table))
@@ -216,6 +217,8 @@ def _print(run: Imitation, out: Path) -> None:
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:
+    from rich.markup import escape
+
     names = {
         "demonstration_to_dmp": "demonstration → DMP",
         "dmp_to_ik": "DMP → FK(IK)",
@@ -224,7 +227,7 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
     table = table_type(title="errors", title_justify="left")
     table.add_column("stage")
     for title in ("position RMSE [mm]", "max [mm]", "angle RMSE [deg]", "max [deg]"):
-        table.add_column(title, justify="right")
+        table.add_column(escape(title), justify="right")
     for stage, errors in run.stages.items():
         lengths = (1e3 * errors.position_rmse, 1e3 * errors.position_max)
         turns = (57.29577951308232 * errors.angle_rmse, 57.29577951308232 * errors.angle_max)

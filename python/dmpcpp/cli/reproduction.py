@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from dmpcpp.reproduction import NoiseLevel, Reproduction
-
-_NAMES = {"source": "source's equations", "default": "default"}
 
 
 @click.command()
@@ -83,45 +81,50 @@ def _print(run: Reproduction, out: Path) -> None:
 
 
 def _table(title: str, *columns: str) -> Table:
+    from rich.markup import escape
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left")
+    table = Table(title=escape(title), title_justify="left")
     for k, column in enumerate(columns):
-        table.add_column(column, justify="left" if k == 0 else "right")
+        table.add_column(escape(column), justify="left" if k == 0 else "right")
     return table
 
 
 def _helix_table(run: Reproduction) -> Table:
     axes = [f"{what} {axis}" for what in ("max", "RMSE") for axis in "xyz"]
-    table = _table("helix x = sin(.05 k), y = cos(.05 k), z = 2 k, 201 samples, dt .005 s: errors", "", *axes)
+    table = _table("helix x = sin(.05 k), y = cos(.05 k), z = 2 k: errors", "", *axes)
     for name, errors in run.helix.errors.items():
-        table.add_row(_NAMES[name], *(f"{value:.3g}" for value in (*errors.max, *errors.rmse)))
+        table.add_row(name, *(f"{value:.3g}" for value in (*errors.max, *errors.rmse)))
     return table
 
 
 def _rotations_table(run: Reproduction) -> Table:
     table = _table(
-        "rotation, Euler angles (.8 sin t, .5 cos t, .6 t): errors [deg]", "product", "T [s]", "", "max", "RMSE"
+        "rotation, Euler angles (.8 sin t, .5 cos t, .6 t): errors [deg]",
+        "product of the angles",
+        "T [s]",
+        "",
+        "max",
+        "RMSE",
     )
     products = {"source": "source's, Rz' Ry' Rx'", "ZYX": "Rz Ry Rx"}
     for experiment in run.rotations:
         for name, errors in experiment.errors.items():
             turns = (f"{math.degrees(value):.3g}" for value in (errors.max, errors.rmse))
-            table.add_row(
-                products[experiment.convention], f"{experiment.demonstration.duration:g}", _NAMES[name], *turns
-            )
+            table.add_row(products[experiment.convention], f"{experiment.demonstration.duration:g}", name, *turns)
     return table
 
 
 def _levels_table(levels: list[NoiseLevel], unit: str, scale: float) -> Table:
     first = next(iter(levels[0].rmse.values()))
-    title = f"{first.count} random motions, {levels[0].quantity} [{unit}]: distance to the motion without noise"
-    fields = ("RMSE mean", "std", "worst", "max mean", "std", "worst")
-    table = _table(title, "noise", "", *fields)
+    title = f"{first.count} random motions: {levels[0].quantity} against the motion without noise [{unit}]"
+    table = _table(title, "noise", "", "RMSE, mean", "std", "worst", "largest error")
     for level in levels:
-        for name in level.rmse:
-            numbers: list[Any] = [
-                getattr(of[name], field) for of in (level.rmse, level.max) for field in ("mean", "std", "worst")
-            ]
-            table.add_row(f"{scale * level.noise:.3g}", _NAMES[name], *(f"{scale * value:.3g}" for value in numbers))
+        for name, rmse in level.rmse.items():
+            numbers = (rmse.mean, rmse.std, rmse.worst, level.max[name].worst)
+            table.add_row(f"{scale * level.noise:.3g}", name, *(_number(scale * value) for value in numbers))
     return table
+
+
+def _number(value: float) -> str:
+    return f"{value:.0f}" if value >= 1e3 else f"{value:.3g}"

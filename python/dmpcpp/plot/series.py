@@ -23,7 +23,6 @@ _STROKES: tuple[dict[str, Any], ...] = (
 )
 _MARKERS = "so^"
 _EVERY_KERNEL = 9  # drawn in ink; the others are faint
-_FLOOR_OF_LOG = 1e-12  # an error of exactly 0 has no place on a logarithmic axis
 
 
 def activations(axes: Axes, time: Array, values: Array) -> Axes:
@@ -45,7 +44,7 @@ def path_3d(axes: Any, original: Array, imitated: Mapping[str, Array], labels: S
     for name, path in imitated.items():
         axes.plot(*path.T, label=name, **_stroke(name, imitated))
     axes.plot(*original[:1].T, "o", color="white", markeredgecolor=INK, markersize=7, zorder=9, label="start")
-    axes.set_box_aspect((1.0, 1.0, 1.15), zoom=1.05)
+    axes.set_box_aspect((1.0, 1.0, 1.15), zoom=0.98)
     return plain_3d(axes, tuple(labels))  # type: ignore[arg-type]
 
 
@@ -74,13 +73,14 @@ def rotation_entries(
             axes.set_ylim(-1.12, 1.12)
             axes.set_yticks((-1.0, 0.0, 1.0))
             axes.set_xlabel("time [s]" if i == 2 else "", color=INK)
+            axes.tick_params(labelbottom=i == 2)
     return cells
 
 
 def series_errors(axes: Axes, time: Array, errors: Mapping[str, Array], label: str) -> Axes:
-    """Draw errors (T,) by name over time (T,) [s] on a logarithmic axis."""
+    """Draw errors (T,) by name over time (T,) [s] on a logarithmic axis, which has no place for an error of exactly 0."""
     for name, values in errors.items():
-        axes.plot(time, np.maximum(values, _FLOOR_OF_LOG), label=name, **_stroke(name, errors))
+        axes.plot(time, np.where(values > 0.0, values, np.nan), label=name, **_stroke(name, errors))
     axes.set_yscale("log")
     axes.set_ylabel(label, color=INK)
     plain(axes).minorticks_off()
@@ -106,7 +106,9 @@ def errors_over_noise(
         m, s = np.asarray(mean[name]), np.asarray(std[name])
         colour = _STROKES[k % len(_STROKES)]["color"]
         low = np.where(s < m, s, 0.0)
-        axes.errorbar(at, m, yerr=(low, s), fmt=_MARKERS[k], color=colour, markersize=5, capsize=4, label=f"{name}, mean")
+        axes.errorbar(
+            at, m, yerr=(low, s), fmt=_MARKERS[k], color=colour, markersize=5, capsize=4, label=f"{name}, mean"
+        )
         axes.plot(at, worst[name], "_", color=colour, markersize=12, markeredgewidth=2.2, label=f"{name}, worst")
     axes.set_yscale("log")
     axes.set_ylabel(label, color=INK)

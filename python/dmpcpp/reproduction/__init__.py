@@ -10,6 +10,7 @@ The source is the thesis proposal of 2019 behind `DmpOptions.source()`: docs/for
 
 from dmpcpp.reproduction.experiments import (
     PRESETS,
+    TITLES,
     AngleErrors,
     AxisErrors,
     PositionExperiment,
@@ -18,12 +19,14 @@ from dmpcpp.reproduction.experiments import (
     rotation,
 )
 from dmpcpp.reproduction.files import write
-from dmpcpp.reproduction.repetition import NoiseLevel, Statistics, repetition
+from dmpcpp.reproduction.repetition import NOISY_PRESETS, NoiseLevel, Statistics, repeat
 from dmpcpp.reproduction.run import SOURCE_ERRORS, Reproduction, reproduce
 
 __all__ = [
+    "NOISY_PRESETS",
     "PRESETS",
     "SOURCE_ERRORS",
+    "TITLES",
     "AngleErrors",
     "AxisErrors",
     "NoiseLevel",
@@ -32,7 +35,7 @@ __all__ = [
     "RotationExperiment",
     "Statistics",
     "helix",
-    "repetition",
+    "repeat",
     "reproduce",
     "rotation",
     "write",

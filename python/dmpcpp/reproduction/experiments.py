@@ -20,6 +20,9 @@ DT = 0.005
 PRESETS: dict[str, Callable[[], DmpOptions]] = {"source": DmpOptions.source, "default": DmpOptions}
 """Under which options every experiment is run."""
 
+TITLES = {"source": "source's equations", "default": "default", "smoothed": "default, smoothed"}
+"""What people read for the name of a preset."""
+
 
 @dataclass(frozen=True, eq=False)
 class AxisErrors:

@@ -12,15 +12,13 @@ import numpy as np
 from dmpcpp import plot
 from dmpcpp.atomic import write_text
 from dmpcpp.metrics import rotation_angles
-from dmpcpp.plot.page import LEGEND
-from dmpcpp.reproduction.experiments import PositionExperiment, RotationExperiment
+from dmpcpp.plot.page import INK, LEGEND
+from dmpcpp.reproduction.experiments import TITLES, PositionExperiment, RotationExperiment
 from dmpcpp.reproduction.repetition import NoiseLevel
 from dmpcpp.reproduction.run import Reproduction
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_NAMES = {"source": "source's equations", "default": "default"}
 
 
 def write(run: Reproduction, folder: str | PathLike[str]) -> None:
@@ -58,8 +56,8 @@ def activations_page(experiment: PositionExperiment) -> Figure:
     phase = np.linspace(0.0, 1.0, 2001)
     for axes, (name, model) in zip(columns, experiment.models.items(), strict=True):
         plot.activations(axes, phase * model.duration, model.activations(phase))
-        axes.set_title(f"{_NAMES[name]}: {model.options.basis_count} kernels", loc="left", fontsize=10)
-    columns[0].set_ylabel("activation")
+        axes.set_title(f"{TITLES[name]}: {model.options.basis_count} kernels", loc="left", fontsize=10, color=INK)
+    columns[0].set_ylabel("activation", color=INK)
     page.subplots_adjust(left=0.06, right=0.985, top=0.84, bottom=0.13, wspace=0.06)
     return page
 
@@ -67,11 +65,14 @@ def activations_page(experiment: PositionExperiment) -> Figure:
 def helix_page(experiment: PositionExperiment) -> Figure:
     """Like the source's figure 3.1: imitated against original path, under its equations and under the default."""
     page = plot.figure(12.5, 6.6, title="x = sin(0.05 k), y = cos(0.05 k), z = 2 k: imitated against original path")
-    for k, (name, path) in enumerate(experiment.reproduced.items()):
-        axes = page.add_subplot(1, 2, k + 1, projection="3d")
+    columns = page.subplots(1, 2, subplot_kw={"projection": "3d"})
+    for axes, (name, path) in zip(columns, experiment.reproduced.items(), strict=True):
         plot.path_3d(axes, experiment.demonstration.position, {"imitated": path})
-        axes.set_title(_NAMES[name], fontsize=10, y=0.97)
-    page.legend(*axes.get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(0.022, 0.945), ncols=3, **LEGEND)
+        axes.set_title(TITLES[name], fontsize=10, y=0.97, color=INK)
+    every = np.concatenate([experiment.demonstration.position, *experiment.reproduced.values()])
+    for axes in columns:
+        axes.set(**{f"{d}lim": (every[:, k].min(), every[:, k].max()) for k, d in enumerate("xyz")})
+    _legend_above(page, columns[0])
     page.subplots_adjust(left=0.0, right=0.97, top=0.93, bottom=0.03, wspace=0.0)
     return page
 
@@ -81,12 +82,12 @@ def coordinates_page(experiment: PositionExperiment) -> Figure:
     page = plot.figure(12.5, 7.0, title="x = sin(0.05 k), y = cos(0.05 k), z = 2 k: coordinates over time")
     cells = page.subplots(3, 2, sharex=True)
     shown = experiment.demonstration
-    again = {_NAMES[name]: path for name, path in experiment.reproduced.items()}
+    again = {TITLES[name]: path for name, path in experiment.reproduced.items()}
     plot.coordinates(cells[:, 0], shown.time, shown.position, again, "xyz")
     for d, axis in enumerate("xyz"):
         errors = {name: np.abs(path[:, d] - shown.position[:, d]) for name, path in again.items()}
         plot.series_errors(cells[d, 1], shown.time, errors, f"error of {axis}")
-    cells[-1, 1].set_xlabel("time [s]")
+    cells[-1, 1].set_xlabel("time [s]", color=INK)
     _legend_above(page, cells[0, 0])
     page.subplots_adjust(left=0.06, right=0.985, top=0.88, bottom=0.08, wspace=0.16, hspace=0.12)
     return page
@@ -97,13 +98,13 @@ def rotation_page(experiment: RotationExperiment) -> Figure:
     shown = experiment.demonstration
     title = f"Euler angles (.8 sin t, .5 cos t, .6 t), {_product(experiment.convention)}: the entries of R over time"
     page = plot.figure(12.5, 8.4, title=title)
-    grid = page.add_gridspec(4, 3, left=0.06, right=0.985, top=0.9, bottom=0.07, wspace=0.2, hspace=0.28)
+    grid = page.add_gridspec(3, 3, left=0.06, right=0.985, top=0.905, bottom=0.32, wspace=0.16, hspace=0.16)
     cells = [[page.add_subplot(grid[i, j]) for j in range(3)] for i in range(3)]
-    again = {_NAMES[name]: rotation for name, rotation in experiment.reproduced.items()}
+    again = {TITLES[name]: rotation for name, rotation in experiment.reproduced.items()}
     plot.rotation_entries(cells, shown.time, shown.rotation, again)
-    below = page.add_subplot(grid[3, :])
+    below = page.add_axes((0.06, 0.065, 0.925, 0.175))
     angles = {name: np.degrees(rotation_angles(shown.rotation, r)) for name, r in again.items()}
-    plot.series_errors(below, shown.time, angles, "error [deg]").set_xlabel("time [s]")
+    plot.series_errors(below, shown.time, angles, "error [deg]").set_xlabel("time [s]", color=INK)
     _legend_above(page, cells[0][0])
     return page
 
@@ -111,21 +112,26 @@ def rotation_page(experiment: RotationExperiment) -> Figure:
 def repetition_page(levels: tuple[NoiseLevel, ...]) -> Figure:
     """Mean, standard deviation and worst case of the random motions at every level of noise."""
     count = next(iter(levels[0].rmse.values())).count
-    page = plot.figure(12.5, 5.2, title=f"{count} random motions: RMSE to the motion without noise")
+    page = plot.figure(
+        12.5,
+        5.2,
+        title=f"{count} random motions: RMSE to the motion without noise",
+        note="Bars: one standard deviation.",
+    )
     columns = page.subplots(1, 2)
     for axes, quantity, unit, scale in zip(
         columns, ("position", "orientation"), ("mm", "deg"), (1e3, np.degrees(1.0)), strict=True
     ):
         chosen = [level for level in levels if level.quantity == quantity]
         series = {
-            field: {_NAMES[n]: [scale * getattr(level.rmse[n], field) for level in chosen] for n in chosen[0].rmse}
+            field: {TITLES[n]: [scale * getattr(level.rmse[n], field) for level in chosen] for n in chosen[0].rmse}
             for field in ("mean", "std", "worst")
         }
         noise = [f"{scale * level.noise:.3g} {unit}" if level.noise else "none" for level in chosen]
         plot.errors_over_noise(axes, noise, **series, label=f"{quantity} RMSE [{unit}]")
-        axes.set_xlabel("noise of the demonstration, standard deviation per component")
+        axes.set_xlabel("noise of the demonstration, standard deviation per component", color=INK)
     _legend_above(page, columns[0])
-    page.subplots_adjust(left=0.06, right=0.985, top=0.84, bottom=0.12, wspace=0.16)
+    page.subplots_adjust(left=0.06, right=0.985, top=0.84, bottom=0.15, wspace=0.16)
     return page
 
 

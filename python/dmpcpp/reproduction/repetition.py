@@ -16,7 +16,9 @@ from dmpcpp.metrics import rotation_angles
 from dmpcpp.reproduction.experiments import DT, PRESETS
 
 Array = NDArray[np.float64]
-Reproduce = Callable[[Array, Array, DmpOptions], Array]
+
+NOISY_PRESETS = PRESETS | {"smoothed": lambda: DmpOptions(derivatives="smooth")}
+"""The defaults learn a demonstration as it is, noise too; smoothing takes the noise out first."""
 
 POSITION_NOISE = (0.0, 0.1e-3, 1e-3, 3e-3)
 """Standard deviation per axis [m]."""
@@ -70,8 +72,8 @@ class NoiseLevel:
         return asdict(self)
 
 
-def repetition(count: int, seed: int = 0, progress: Callable[[float], None] | None = None) -> tuple[NoiseLevel, ...]:
-    """Learn `count` random motions at every level of noise under every preset.
+def repeat(count: int, seed: int = 0, progress: Callable[[float], None] | None = None) -> tuple[NoiseLevel, ...]:
+    """Learn `count` random motions at every level of noise under every one of NOISY_PRESETS.
 
     Position and Euler angles (ZYX) are sums of 4 sinusoids per component, 0.1 to 1.5 Hz, at most 0.2 m and 0.8 rad,
     over 1 to 5 s at 200 Hz: neither starts nor ends at rest. Motion i of a seed is the same whatever `count`.
@@ -126,18 +128,18 @@ def _errors(rng: np.random.Generator) -> Iterator[tuple[tuple[str, float, str], 
     time, position, rotation = random_motion(rng)
     for noise in POSITION_NOISE:
         shown = Demonstration(time, with_position_noise(position, noise, rng))
-        for name, options in PRESETS.items():
+        for name, options in NOISY_PRESETS.items():
             again = Dmp.fit(shown, options()).rollout_at(time).position
             yield ("position", noise, name), np.linalg.norm(again - position, axis=1)
     for noise in ANGLE_NOISE:
         turning = OrientationDemonstration(time, with_angle_noise(rotation, noise, rng))
-        for name, options in PRESETS.items():
+        for name, options in NOISY_PRESETS.items():
             turned = OrientationDmp.fit(turning, options()).rollout_at(time).rotation
             yield ("orientation", noise, name), rotation_angles(rotation, turned)
 
 
 def _level(quantity: str, noise: float, errors: list[dict[tuple[str, float, str], Array]]) -> NoiseLevel:
-    of = {name: [run[quantity, noise, name] for run in errors] for name in PRESETS}
+    of = {name: [run[quantity, noise, name] for run in errors] for name in NOISY_PRESETS}
     rmse = {name: Statistics.of([np.sqrt(np.mean(run**2)) for run in runs]) for name, runs in of.items()}
     return NoiseLevel(
         quantity, noise, rmse, {name: Statistics.of([run.max() for run in runs]) for name, runs in of.items()}

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.reproduction import repetition
 from dmpcpp.reproduction.experiments import PositionExperiment, RotationExperiment, helix, rotation
-from dmpcpp.reproduction.repetition import NoiseLevel, repetition
+from dmpcpp.reproduction.repetition import NoiseLevel
 from dmpcpp.simulation import Check
 
 SOURCE_ERRORS = (0.327, 0.116, 10.5)
@@ -75,7 +76,7 @@ def reproduce(repeat: int = 0, seed: int = 0, progress: Callable[[float], None] 
             raise InvalidArgument(f"{name}: {value}, expected 0 or more.")
     spiral = helix()
     rotations = tuple(rotation(duration, convention) for convention in _CONVENTIONS for duration in _DURATIONS)
-    levels = repetition(repeat, seed, progress) if repeat else ()
+    levels = repetition.repeat(repeat, seed, progress) if repeat else ()
     return Reproduction(spiral, rotations, levels, seed, _checks(spiral))
 
 
