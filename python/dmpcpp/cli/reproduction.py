@@ -99,14 +99,8 @@ def _helix_table(run: Reproduction) -> Table:
 
 
 def _rotations_table(run: Reproduction) -> Table:
-    table = _table(
-        "rotation, Euler angles (.8 sin t, .5 cos t, .6 t): errors [deg]",
-        "product of the angles",
-        "T [s]",
-        "",
-        "max",
-        "RMSE",
-    )
+    title = "rotation, Euler angles (.8 sin t, .5 cos t, .6 t): errors [deg]"
+    table = _table(title, "product of the angles", "T [s]", "", "max", "RMSE")
     products = {"source": "source's, Rz' Ry' Rx'", "ZYX": "Rz Ry Rx"}
     for experiment in run.rotations:
         for name, errors in experiment.errors.items():

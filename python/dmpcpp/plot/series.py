@@ -78,7 +78,7 @@ def rotation_entries(
 
 
 def series_errors(axes: Axes, time: Array, errors: Mapping[str, Array], label: str) -> Axes:
-    """Draw errors (T,) by name over time (T,) [s] on a logarithmic axis, which has no place for an error of exactly 0."""
+    """Draw errors (T,) by name over time (T,) [s] on a logarithmic axis; an error of exactly 0 has no place there."""
     for name, values in errors.items():
         axes.plot(time, np.where(values > 0.0, values, np.nan), label=name, **_stroke(name, errors))
     axes.set_yscale("log")
@@ -106,9 +106,8 @@ def errors_over_noise(
         m, s = np.asarray(mean[name]), np.asarray(std[name])
         colour = _STROKES[k % len(_STROKES)]["color"]
         low = np.where(s < m, s, 0.0)
-        axes.errorbar(
-            at, m, yerr=(low, s), fmt=_MARKERS[k], color=colour, markersize=5, capsize=4, label=f"{name}, mean"
-        )
+        look: dict[str, Any] = {"fmt": _MARKERS[k], "color": colour, "markersize": 5, "capsize": 4}
+        axes.errorbar(at, m, yerr=(low, s), label=f"{name}, mean", **look)
         axes.plot(at, worst[name], "_", color=colour, markersize=12, markeredgewidth=2.2, label=f"{name}, worst")
     axes.set_yscale("log")
     axes.set_ylabel(label, color=INK)

@@ -112,12 +112,8 @@ def rotation_page(experiment: RotationExperiment) -> Figure:
 def repetition_page(levels: tuple[NoiseLevel, ...]) -> Figure:
     """Mean, standard deviation and worst case of the random motions at every level of noise."""
     count = next(iter(levels[0].rmse.values())).count
-    page = plot.figure(
-        12.5,
-        5.2,
-        title=f"{count} random motions: RMSE to the motion without noise",
-        note="Bars: one standard deviation.",
-    )
+    title = f"{count} random motions: RMSE to the motion without noise"
+    page = plot.figure(12.5, 5.2, title=title, note="Bars: one standard deviation.")
     columns = page.subplots(1, 2)
     for axes, quantity, unit, scale in zip(
         columns, ("position", "orientation"), ("mm", "deg"), (1e3, np.degrees(1.0)), strict=True
