@@ -23,6 +23,7 @@ _MODULES = frozenset(
         "motion",
         "plot",
         "recordings",
+        "reproduction",
         "retarget",
         "simulation",
     }

@@ -68,14 +68,16 @@ def position_errors(reference: ArrayLike, poses: ArrayLike) -> Array:
 
 
 def angle_errors(reference: ArrayLike, poses: ArrayLike) -> Array:
-    """Geodesic angles (T,) [rad], 0 to pi: |log(Ra^T Rb)| of two series of poses (T, 4, 4).
-
-    Computed as 2 atan2(|Ra - Rb|, sqrt(8 - |Ra - Rb|^2)) with the Frobenius norm, which is 2 sqrt(2)
-    sin(angle / 2): exact near 0, where the arccosine of the trace loses half of the digits.
-    """
+    """Geodesic angles (T,) [rad], 0 to pi: |log(Ra^T Rb)| of two series of poses (T, 4, 4)."""
     a, b = _pose_pair(reference, poses)
-    chord_squared = np.sum((b[:, :3, :3] - a[:, :3, :3]) ** 2, axis=(1, 2))
-    return np.asarray(2.0 * np.arctan2(np.sqrt(chord_squared), np.sqrt(np.maximum(8.0 - chord_squared, 0.0))))
+    return _angles(a[:, :3, :3], b[:, :3, :3])
+
+
+def rotation_angles(reference: ArrayLike, rotations: ArrayLike) -> Array:
+    """The same of two series of rotations (T, 3, 3)."""
+    a, b = _rotations("reference", reference), _rotations("rotations", rotations)
+    _same_shape(a, b)
+    return _angles(a, b)
 
 
 def final_error(reference: ArrayLike, poses: ArrayLike) -> PoseError:
@@ -188,6 +190,13 @@ def _poses(name: str, poses: ArrayLike) -> Array:
     return array
 
 
+def _rotations(name: str, rotations: ArrayLike) -> Array:
+    array = np.asarray(rotations, dtype=np.float64)
+    if array.ndim != 3 or array.shape[1:] != (3, 3):
+        raise InvalidArgument(f"{name}: shape {array.shape}, expected (T, 3, 3) rotation matrices.")
+    return array
+
+
 def _series(name: str, values: ArrayLike) -> Array:
     array = np.asarray(values, dtype=np.float64)
     array = array[:, None] if array.ndim == 1 else array
@@ -207,6 +216,16 @@ def _same_shape(a: Array, b: Array) -> None:
 def _positive(name: str, value: float) -> None:
     if not (np.isfinite(value) and value > 0.0):
         raise InvalidArgument(f"{name}: {value}, expected a positive number.")
+
+
+def _angles(a: Array, b: Array) -> Array:
+    """|log(Ra^T Rb)| as 2 atan2(|Ra - Rb|, sqrt(8 - |Ra - Rb|^2)).
+
+    The Frobenius norm is 2 sqrt(2) sin(angle / 2): exact near 0, where the arccosine of the trace loses half of
+    the digits.
+    """
+    chord_squared = np.sum((b - a) ** 2, axis=(1, 2))
+    return np.asarray(2.0 * np.arctan2(np.sqrt(chord_squared), np.sqrt(np.maximum(8.0 - chord_squared, 0.0))))
 
 
 def _rms(values: Array) -> float:

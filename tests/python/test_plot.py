@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from dmpcpp import plot
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
+from dmpcpp.plot import execution
 
 pytest.importorskip("matplotlib")
 
@@ -41,9 +42,9 @@ def test_the_picture_shows_all_three_paths_and_the_errors(tmp_path):
     assert path.read_bytes().startswith(b"\x89PNG")
     image = pixels(path)
     half = image.shape[1] * 55 // 100
-    for name, style in plot._PATHS.items():
+    for name, style in execution._PATHS.items():
         assert coloured(image[:, :half], style["color"]) > 300, name
-    assert coloured(image[:, half:], plot._STAGE_COLOURS[0]) > 300
+    assert coloured(image[:, half:], execution._STAGE_COLOURS[0]) > 300
 
 
 def test_an_error_of_zero_still_has_a_place_in_the_picture(tmp_path):
@@ -58,8 +59,8 @@ def test_positions_without_orientation_can_be_drawn_too(tmp_path):
 def test_the_curve_never_looks_better_than_what_was_measured():
     time, values = np.arange(10_000.0), np.random.default_rng(0).random(10_000)
     values[1234] = 50.0
-    shown_time, shown = plot._envelope(time, values)
-    assert len(shown) <= plot._BINS
+    shown_time, shown = execution._envelope(time, values)
+    assert len(shown) <= execution._BINS
     assert shown.max() == 50.0
     for k, start in enumerate(shown_time.astype(int)):
         end = int(shown_time[k + 1]) if k + 1 < len(shown_time) else len(values)

@@ -1,7 +1,4 @@
-"""The command line: `dmpcpp demo`, `dmpcpp imitate`.
-
-Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
-"""
+"""`dmpcpp demo` and `dmpcpp imitate`: a recorded motion, carried out by an arm under physics."""
 
 from __future__ import annotations
 
@@ -14,32 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from dmpcpp import __version__
-from dmpcpp.errors import InvalidArgument, MissingDependency
+from dmpcpp.cli.group import FAILED, refuse_file
+from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
     from dmpcpp.imitation import Imitation, Progress
     from dmpcpp.recordings import Recording
-
-_WRONG_INPUT, _FAILED = 2, 3
-
-
-class _Group(click.Group):
-    """Turns errors that a user can mend into one line and an exit status, without a traceback."""
-
-    def invoke(self, ctx: click.Context) -> Any:
-        try:
-            return super().invoke(ctx)
-        except (InvalidArgument, MissingDependency, OSError) as error:
-            click.echo(f"dmpcpp: {error}", err=True)
-            ctx.exit(_WRONG_INPUT)
-
-
-@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
-@click.version_option(__version__, prog_name="dmpcpp")
-def main() -> None:
-    """A person's motion, learned as a dynamic movement primitive and carried out by a robot arm under physics."""
 
 
 def _arm_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -86,7 +64,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
     return decorate
 
 
-@main.command()
+@click.command()
 @click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
 @click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
 @_arm_options
@@ -101,7 +79,7 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
     _carry_out(recordings.clip(clip, body), arms.load(arm, base, tip), **run)
 
 
-@main.command()
+@click.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several.")
 @click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file.")
@@ -180,7 +158,7 @@ def _carry_out(
 ) -> None:
     from dmpcpp import imitation
 
-    _refuse_file(out)
+    refuse_file(out)
     with _progress(as_json) as progress:
         run = imitation.imitate(recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress)
     imitation.write(run, out)
@@ -189,12 +167,7 @@ def _carry_out(
     else:
         _print(run, out)
     if not run.ok:
-        sys.exit(_FAILED)
-
-
-def _refuse_file(out: Path) -> None:
-    if out.exists() and not out.is_dir():
-        raise InvalidArgument(f"--out: '{out}' is a file, expected a folder.")
+        sys.exit(FAILED)
 
 
 @contextmanager
@@ -230,7 +203,8 @@ def _print(run: Imitation, out: Path) -> None:
     for line in run.recording.history:
         console.print(f"[dim]{line}[/dim]", soft_wrap=True, markup=True)
     console.print(
-        f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, {run.slowdown:.2f} x the recorded duration"
+        f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, "
+        f"{run.slowdown:.2f} x the recorded duration"
     )
     console.print(_errors_table(run, Table))
     console.print(_checks_table(run, Table))
@@ -243,6 +217,8 @@ def _print(run: Imitation, out: Path) -> None:
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:
+    from rich.markup import escape
+
     names = {
         "demonstration_to_dmp": "demonstration → DMP",
         "dmp_to_ik": "DMP → FK(IK)",
@@ -251,7 +227,7 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
     table = table_type(title="errors", title_justify="left")
     table.add_column("stage")
     for title in ("position RMSE [mm]", "max [mm]", "angle RMSE [deg]", "max [deg]"):
-        table.add_column(title, justify="right")
+        table.add_column(escape(title), justify="right")
     for stage, errors in run.stages.items():
         lengths = (1e3 * errors.position_rmse, 1e3 * errors.position_max)
         turns = (57.29577951308232 * errors.angle_rmse, 57.29577951308232 * errors.angle_max)

@@ -1,14 +1,7 @@
-"""Pictures of a motion: what was shown, what was planned, what the arm did, and how far apart they are.
-
-Every function draws into matplotlib axes that it is given and returns them; ``picture`` composes a whole
-page into a file. Nothing here touches ``matplotlib.pyplot`` or its state. Colours are those of Okabe and Ito
-("Color Universal Design", 2008), told apart with every kind of colour vision; every series differs in its
-stroke as well.
-"""
+"""What was shown, what was planned, what the arm did, and how far apart they are."""
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.plot.page import FAINT, INK, LEGEND, figure, plain, plain_3d, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -33,7 +26,6 @@ _PATHS: dict[str, dict[str, Any]] = {
     "demonstrated": {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 3.6, "zorder": 4},
     "executed": {"color": "#1A1A1A", "linewidth": 1.2, "zorder": 5},
 }
-_INK, _FAINT, _GRID = "#333333", "#666666", "#DDDDDD"
 _DOTS = 70  # demonstrated samples drawn: more would hide the lines below
 _AXES_DRAWN = 14  # tool axes drawn along the planned path
 _BINS = 400  # points of an error curve
@@ -75,7 +67,7 @@ def paths(axes: Any, **poses: Array) -> Any:
     _frame_3d(axes, np.concatenate(list(positions.values())))
     if "planned" in poses:
         start = positions["planned"][:1]
-        axes.plot(*start.T, "o", color="white", markeredgecolor=_INK, markersize=8, zorder=6, label="start")
+        axes.plot(*start.T, "o", color="white", markeredgecolor=INK, markersize=8, zorder=6, label="start")
         _tool_axes(axes, np.asarray(poses["planned"]))
         _shadow(axes, positions["planned"])
     return axes
@@ -125,48 +117,19 @@ def picture(
     FileError
         The file can not be written.
     """
-    figure = _figure()
-    grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1.0), left=0.02, right=0.975, top=0.9, bottom=0.13)
-    space = figure.add_subplot(grid[:, 0], projection="3d")
+    page = figure(title=title, note=note)
+    grid = page.add_gridspec(2, 2, width_ratios=(1.35, 1.0), left=0.02, right=0.975, top=0.9, bottom=0.13)
+    space = page.add_subplot(grid[:, 0], projection="3d")
     paths(space, planned=planned, demonstrated=demonstrated, executed=executed)
-    legend = {"frameon": False, "fontsize": 8.5, "columnspacing": 1.2, "labelcolor": _INK}
     lines, labels = space.get_legend_handles_labels()
-    figure.legend(lines, labels, loc="center left", bbox_to_anchor=(0.022, 0.915), ncols=len(lines), **legend)
-    above, below = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
+    page.legend(lines, labels, loc="center left", bbox_to_anchor=(0.022, 0.915), ncols=len(lines), **LEGEND)
+    above, below = page.add_subplot(grid[0, 1]), page.add_subplot(grid[1, 1])
     position_error(above, errors)
     angle_error(below, errors)
-    below.set_xlabel("time [s]", color=_INK)
+    below.set_xlabel("time [s]", color=INK)
     above.tick_params(labelbottom=False)
-    above.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=len(errors), handlelength=2.2, **legend)
-    figure.suptitle(title, x=0.03, y=0.965, ha="left", fontsize=13, color=_INK)
-    figure.text(0.03, 0.03, note, fontsize=8.5, color=_FAINT)
-    return _save(figure, Path(path))
-
-
-def _figure() -> Figure:
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-        from mpl_toolkits.mplot3d import Axes3D  # noqa: F401  registers the projection "3d"
-    except ImportError:
-        raise MissingDependency('matplotlib is not installed. Install the extra: pip install "dmpcpp[plot]".') from None
-    figure = Figure(figsize=(12.5, 6.2), dpi=130, facecolor="white")
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def _save(figure: Figure, path: Path) -> Path:
-    """Draw in memory first, so that a failure leaves no half of a file."""
-    image = io.BytesIO()
-    figure.savefig(image, format="png")
-    part = path.with_name(path.name + ".part")
-    try:
-        part.write_bytes(image.getvalue())
-        part.replace(path)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise FileError(f"{path}: can not be written: {error.strerror}.") from None
-    return path
+    above.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=len(errors), handlelength=2.2, **LEGEND)
+    return save(page, path)
 
 
 def _positions(name: str, values: Array) -> Array:
@@ -197,19 +160,7 @@ def _frame_3d(axes: Any, points: Array) -> None:
     middle = 0.5 * (lowest + highest)
     axes.set(**{f"{name}lim": (m - h, m + h) for name, m, h in zip("xyz", middle, half, strict=True)})
     axes.set_box_aspect(half, zoom=1.12)
-    for axis, name in ((axes.xaxis, "x"), (axes.yaxis, "y"), (axes.zaxis, "z")):
-        axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
-        axis._axinfo["grid"].update(color=_GRID, linewidth=0.6)
-        axis.set_label_text(f"{name} [m]", color=_INK)
-        axis.set_major_locator(_few_ticks())
-    axes.tick_params(labelsize=8, colors=_FAINT)
-    axes.view_init(elev=22, azim=-58)
-
-
-def _few_ticks() -> Any:
-    from matplotlib.ticker import MaxNLocator
-
-    return MaxNLocator(5)
+    plain_3d(axes, ("x [m]", "y [m]", "z [m]"))
 
 
 def _shadow(axes: Any, position: Array) -> None:
@@ -225,17 +176,13 @@ def _errors(
         stroke = {"color": _STAGE_COLOURS[k % 4], "linestyle": _STAGE_STROKES[k % 4], "linewidth": 1.5}
         axes.plot(time, values * scale, label=curve.label, **stroke)
     if limit is not None:
-        axes.axhline(limit * scale, color=_INK, linewidth=0.8)
+        axes.axhline(limit * scale, color=INK, linewidth=0.8)
     if any((getattr(curve, field) < _FLOOR_OF_LOG).any() for curve in curves):
         note = f"the lowest line is {_FLOOR_OF_LOG * scale:.0e} or less"
-        axes.text(0.995, 0.065, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=_FAINT)
+        axes.text(0.995, 0.065, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=FAINT)
     axes.set_yscale("log")
-    axes.set_ylabel(label, color=_INK)
-    axes.grid(color=_GRID, linewidth=0.6)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.tick_params(colors=_FAINT, labelsize=8.5)
-    axes.minorticks_off()
-    axes.margins(x=0.01)
+    axes.set_ylabel(label, color=INK)
+    plain(axes).minorticks_off()
     return axes
 
 

@@ -1,0 +1,1 @@
+"""Measurements beside other packages, each in one run: `python -m benchmarks.accuracy`."""

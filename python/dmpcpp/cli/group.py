@@ -1,0 +1,36 @@
+"""What the commands share: the program itself, its exit status and how errors reach the user."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from dmpcpp import __version__
+from dmpcpp.errors import InvalidArgument, MissingDependency
+
+WRONG_INPUT, FAILED = 2, 3
+
+
+class _Group(click.Group):
+    """Turns errors that a user can mend into one line and an exit status, without a traceback."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except (InvalidArgument, MissingDependency, OSError) as error:
+            click.echo(f"dmpcpp: {error}", err=True)
+            ctx.exit(WRONG_INPUT)
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="dmpcpp")
+def main() -> None:
+    """A person's motion, learned as a dynamic movement primitive and carried out by a robot arm under physics."""
+
+
+def refuse_file(out: Path) -> None:
+    """Raise InvalidArgument where the folder of the results is a file, before anything runs."""
+    if out.exists() and not out.is_dir():
+        raise InvalidArgument(f"--out: '{out}' is a file, expected a folder.")

@@ -1,0 +1,26 @@
+"""Pictures: of a motion that an arm carried out, and of an experiment that was reproduced.
+
+Functions draw into matplotlib axes that they are given and return them; `picture` and `pages` compose whole pages
+into files. Nothing here touches `matplotlib.pyplot` or its state. Colours are those of Okabe and Ito ("Color
+Universal Design", 2008), told apart with every kind of colour vision; every series differs in its stroke as well.
+"""
+
+from dmpcpp.plot.execution import ErrorCurve, angle_error, paths, picture, position_error
+from dmpcpp.plot.page import figure, save
+from dmpcpp.plot.series import activations, coordinates, errors_over_noise, path_3d, rotation_entries, series_errors
+
+__all__ = [
+    "ErrorCurve",
+    "activations",
+    "angle_error",
+    "coordinates",
+    "errors_over_noise",
+    "figure",
+    "path_3d",
+    "paths",
+    "picture",
+    "position_error",
+    "rotation_entries",
+    "save",
+    "series_errors",
+]
