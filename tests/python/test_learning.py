@@ -1,9 +1,8 @@
 """Reports, spread and averages as Python sees them."""
 
+import dmpcpp
 import numpy as np
 import pytest
-
-import dmpcpp
 from dmpcpp import Dmp, InvalidArgument, PoseDmp
 
 
