@@ -24,6 +24,6 @@ function(dmp_add_library component)
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/cpp/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${PROJECT_SOURCE_DIR}/cpp/src)
   target_compile_definitions(${target} PRIVATE DMP_VERSION="${PROJECT_VERSION}")
-  # No contraction to fused multiply-add: the same bits on every processor.
+  # No contraction to fused multiply-add: the library's own arithmetic has the same bits on every processor.
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 endfunction()

@@ -55,7 +55,9 @@ install_python_package() {
   stamp="$(sources_stamp)"
   [ -x "$venv/bin/python" ] && [ "$(cat "$venv/dmpcpp.stamp" 2>/dev/null)" = "$stamp" ] && return
   if [ ! -x "$venv/bin/python" ]; then
-    "$(find_python)" -m venv "$venv" || stop "could not make $venv"
+    local python
+    python=$(find_python) || exit 1
+    "$python" -m venv "$venv" || stop "could not make $venv"
   fi
   echo "dmpcpp: building and installing the package into .venv (a minute or two)"
   "$venv/bin/pip" install -q --disable-pip-version-check "$root[sim,plot,test]" ||

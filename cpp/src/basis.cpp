@@ -21,10 +21,20 @@ void require_positive(double value, const char* name) {
 
 }  // namespace
 
+void GaussianBasis::require_phases(const Eigen::VectorXd& s) {
+  for (Eigen::Index k = 0; k < s.size(); ++k)
+    if (!(s[k] >= 0.0 && std::isfinite(s[k])))
+      throw InvalidArgument("phase[" + std::to_string(k) + "]: " + std::to_string(s[k]) +
+                            ", expected a finite phase, 0 at the start and 1 at the end.");
+}
+
 GaussianBasis::GaussianBasis(int count, double alpha_x) : count_(count), alpha_x_(alpha_x) {
   if (count < 1 || count > 100000)
     throw InvalidArgument("basis_count: " + std::to_string(count) + ", expected 1 to 100000 kernels.");
   require_positive(alpha_x, "alpha_x");
+  if (alpha_x > 50.0)
+    throw InvalidArgument("alpha_x: " + std::to_string(alpha_x) +
+                          ", expected at most 50: x would vanish before the end.");
 }
 
 GaussianBasis GaussianBasis::equal_in_time(int count, double alpha_x, double overlap) {
@@ -107,6 +117,7 @@ GaussianBasis::Window GaussianBasis::activations(double s, double* psi) const no
 }
 
 RowMatrix GaussianBasis::activations(const Eigen::VectorXd& s, bool normalised) const {
+  require_phases(s);
   RowMatrix table = RowMatrix::Zero(s.size(), count_);
   for (Eigen::Index k = 0; k < s.size(); ++k) {
     std::vector<double> psi(static_cast<std::size_t>(capacity_));

@@ -112,7 +112,7 @@ Trajectory Dmp::roll_out(const detail::Timetable& timetable, const std::optional
   auto& runner = run.state_->runner;
   if (duration) {
     detail::require_duration(*duration);
-    runner.start_with_duration(*duration);
+    runner.set_duration(*duration);
   }
   if (goal) {
     detail::require_finite(*goal, dimension(), "goal");
@@ -149,7 +149,12 @@ Status Run::step(double dt) noexcept { return state_->runner.step(dt); }
 
 Status Run::set_goal(const Eigen::Ref<const VectorXd>& goal) noexcept {
   if (goal.size() != position().size() || !goal.allFinite()) return Status::invalid_input;
-  state_->runner.motion().set_goal(goal);
+  if (state_->runner.at_start()) {
+    state_->runner.motion().start_with_goal(goal);
+    state_->runner.publish();
+  } else {
+    state_->runner.motion().set_goal(goal);
+  }
   return status();
 }
 

@@ -57,10 +57,11 @@ class TemporaryFile {
 };
 
 std::string read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
   struct stat about {};
-  if (!file || ::stat(path.c_str(), &about) != 0) fail(path, "be read");
+  if (::stat(path.c_str(), &about) != 0) fail(path, "be read");
   if (!S_ISREG(about.st_mode)) throw FileError(path + ": not a file.");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path, "be read");
   if (static_cast<std::size_t>(about.st_size) > kLargestFile)
     throw InvalidArgument(path + ": larger than 64 MiB, expected a model file.");
   std::ostringstream text;

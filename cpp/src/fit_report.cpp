@@ -14,13 +14,10 @@ namespace {
 using detail::number;
 using Eigen::Index;
 using Eigen::Matrix3d;
-using Eigen::Matrix4d;
 using Eigen::VectorXd;
 
 constexpr int kFewestKernels = 10;
 constexpr int kMostKernels = 1280;
-
-Matrix3d rotation_of(const Matrix4d& pose) { return pose.topLeftCorner<3, 3>(); }
 
 /// Row by row the rotation vector from b to a, world frame.
 RowMatrix turns(const Rotations& a, const Rotations& b) {
@@ -30,52 +27,58 @@ RowMatrix turns(const Rotations& a, const Rotations& b) {
   return result;
 }
 
-Rotations rotations_of(const Poses& poses) {
-  Rotations rotations;
-  for (const Matrix4d& pose : poses) rotations.push_back(rotation_of(pose));
-  return rotations;
-}
-
 // What the three kinds differ in: the deviation of a rollout from a demonstration, its noise, how far it
 // turns.
 
+/// A run of the unchanged model, stepped to each of the times; `look` takes what it needs there.
+template <class Run, class Look>
+void step_through(Run& run, const VectorXd& times, Look look) {
+  for (Index k = 0; k < times.size(); ++k) {
+    run.step(k > 0 ? times[k] - times[k - 1] : times[0]);
+    look(k);
+  }
+}
+
 RowMatrix deviation(const Dmp& dmp, const Demonstration& demonstration) {
-  const Index last = demonstration.size() - 1;
-  DmpParameters own = dmp.parameters();
-  own.start = demonstration.position().row(0);
-  own.goal = demonstration.position().row(last);
-  own.start_velocity *= own.duration / demonstration.duration();
-  own.duration = demonstration.duration();
-  return Dmp(own).rollout_at(demonstration.time()).position - demonstration.position();
+  const detail::PositionLesson lesson = detail::lesson_of(demonstration, dmp.options());
+  Run run(dmp);
+  run.set_duration(demonstration.duration());
+  run.start_from(lesson.start, lesson.start_z / demonstration.duration());
+  run.set_goal(lesson.goal);
+  RowMatrix away(demonstration.size(), demonstration.dimension());
+  step_through(run, demonstration.time(),
+               [&](Index k) { away.row(k) = run.position().transpose() - demonstration.position().row(k); });
+  return away;
 }
 
 RowMatrix deviation(const OrientationDmp& dmp, const OrientationDemonstration& demonstration) {
-  OrientationDmpParameters own = dmp.parameters();
-  own.start = demonstration.rotation().front();
-  own.goal = demonstration.rotation().back();
-  own.start_error =
-      so3::lifted_log(Eigen::Quaterniond(Matrix3d(own.goal * own.start.transpose())), own.start_error);
-  own.start_velocity *= own.duration / demonstration.duration();
-  own.duration = demonstration.duration();
-  return turns(OrientationDmp(own).rollout_at(demonstration.time()).rotation, demonstration.rotation());
+  const detail::OrientationLesson lesson = detail::lesson_of(demonstration, dmp.options());
+  OrientationRun run(dmp);
+  run.set_duration(demonstration.duration());
+  run.start_from(lesson.start, lesson.start_eta / demonstration.duration());
+  run.set_goal(lesson.goal);
+  Rotations again;
+  step_through(run, demonstration.time(), [&](Index) { again.push_back(run.rotation()); });
+  return turns(again, demonstration.rotation());
 }
 
 RowMatrix deviation(const PoseDmp& dmp, const PoseDemonstration& demonstration) {
-  const Poses poses = demonstration.pose();
-  PoseDmpParameters own = dmp.parameters();
-  own.start = poses.front();
-  own.goal = poses.back();
-  const Matrix3d way = rotation_of(own.goal) * rotation_of(own.start).transpose();
-  own.start_error = so3::lifted_log(Eigen::Quaterniond(way), own.start_error);
-  own.start_twist *= own.duration / demonstration.duration();
-  own.duration = demonstration.duration();
-  const Poses again = PoseDmp(own).rollout_at(demonstration.time()).pose;
-  RowMatrix result(demonstration.size(), 6);
-  result.rightCols(3) = turns(rotations_of(again), rotations_of(poses));
-  for (Index k = 0; k < result.rows(); ++k)
-    result.row(k).head(3) =
-        (again[static_cast<std::size_t>(k)] - poses[static_cast<std::size_t>(k)]).topRightCorner<3, 1>();
-  return result;
+  const detail::PositionLesson position = detail::lesson_of(demonstration.position(), dmp.options());
+  const detail::OrientationLesson orientation = detail::lesson_of(demonstration.orientation(), dmp.options());
+  Eigen::Matrix<double, 6, 1> twist;
+  twist << position.start_z, orientation.start_eta;
+  PoseRun run(dmp);
+  run.set_duration(demonstration.duration());
+  run.start_from(pose_of(orientation.start, position.start), twist / demonstration.duration());
+  run.set_goal(pose_of(orientation.goal, position.goal));
+  RowMatrix away(demonstration.size(), 6);
+  Rotations again;
+  step_through(run, demonstration.time(), [&](Index k) {
+    away.row(k).head(3) = run.position().transpose() - demonstration.position().position().row(k);
+    again.push_back(run.rotation());
+  });
+  away.rightCols(3) = turns(again, demonstration.orientation().rotation());
+  return away;
 }
 
 Smoothing smoothing_of(const Demonstration& demonstration) {
@@ -147,7 +150,12 @@ int suggested(const Model& model, const Demonstrations& demonstrations, const To
 }
 
 template <class Demonstrations>
-void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOptions& options) {
+void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOptions& options, double excess) {
+  if (excess > 1.0)
+    report.warnings.push_back("rmse: " + number(excess) + " times the tolerance. " +
+                              (report.suggested_basis_count > 0
+                                   ? std::to_string(report.suggested_basis_count) + " kernels reach it."
+                                   : "More kernels do not help; Derivatives::smooth may."));
   for (std::size_t j = 0; j < demonstrations.size(); ++j)
     if (demonstrations[j].size() < 3)
       report.warnings.push_back(
@@ -182,9 +190,9 @@ FitReport assessed(const Model& model, const Demonstrations& demonstrations, con
       report.removed += found.removed / static_cast<double>(demonstrations.size());
     report.largest_log = std::max(report.largest_log, largest_log_of(demonstration, model.options()));
   }
-  report.condition = regression_condition(model.forcing().basis(), model.options());
+  report.condition = regression_condition(model.options());
   report.suggested_basis_count = suggested(model, demonstrations, tolerance);
-  warn(report, demonstrations, model.options());
+  warn(report, demonstrations, model.options(), excess(model, report.rmse, tolerance));
   return report;
 }
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "detail/learning.hpp"
+
 namespace dmp {
 namespace {
 
@@ -41,7 +43,8 @@ void weighted_mean(const double* psi, int count, const double* rows, Index colum
   for (Index d = 0; d < columns; ++d) f[d] *= x / total;
 }
 
-/// How much of the phase each sample stands for, their mean being 1: a uniform grid has equal shares.
+/// How much of the phase each sample stands for, 1 in all: a demonstration counts alike however often it was
+/// sampled.
 VectorXd shares(const VectorXd& s) {
   const Index n = s.size();
   VectorXd share = VectorXd::Ones(n);
@@ -50,8 +53,10 @@ VectorXd shares(const VectorXd& s) {
     share[0] = s[1] - s[0];
     share[n - 1] = s[n - 1] - s[n - 2];
   }
-  return share / share.mean();
+  return share / share.sum();
 }
+
+constexpr Index kMostForRidge = 4000;  // its matrix is solved in full
 
 /// The sums that both regressions need, for axes that share their scales.
 class NormalEquations {
@@ -91,6 +96,9 @@ class NormalEquations {
 
   RowMatrix solve_ridge(double ridge) const {
     if (gram_.col(0).sum() == 0.0) return RowMatrix::Zero(right_.rows(), right_.cols());
+    if (gram_.rows() > kMostForRidge)
+      throw InvalidArgument("options.basis_count: " + std::to_string(gram_.rows()) +
+                            " kernels, expected at most 4000 for ridge regression. Use Regression::lwr.");
     return with_ridge(ridge).selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd(right_));
   }
 
@@ -99,7 +107,7 @@ class NormalEquations {
   double condition(double ridge) const {
     Eigen::MatrixXd full = with_ridge(local_ ? 0.0 : ridge);
     if (local_) {
-      const VectorXd scale = norm_.cwiseSqrt().cwiseInverse();
+      const VectorXd scale = (norm_.array() > 0.0).select(norm_.cwiseSqrt().cwiseInverse(), 0.0);
       full = scale.asDiagonal() * full * scale.asDiagonal();
     }
     const VectorXd values =
@@ -188,6 +196,20 @@ class NormalEquations {
   VectorXd norm_;
 };
 
+void require_targets(const std::vector<ForcingTarget>& targets) {
+  if (targets.empty()) throw InvalidArgument("targets: none, expected at least one.");
+  for (const ForcingTarget& target : targets) {
+    const Index dimension = targets.front().value.cols();
+    if (target.s.size() == 0 || target.value.rows() != target.s.size() || target.value.cols() != dimension ||
+        target.scale.size() != dimension)
+      throw InvalidArgument(
+          "targets: phases, values and scales of different sizes, expected (K), (K x dims) and (dims).");
+    GaussianBasis::require_phases(target.s);
+    if (!target.value.allFinite() || !target.scale.allFinite())
+      throw InvalidArgument("targets: values or scales that are not finite.");
+  }
+}
+
 bool one_scale(const std::vector<ForcingTarget>& targets) {
   return std::all_of(targets.begin(), targets.end(),
                      [](const ForcingTarget& t) { return (t.scale.array() == t.scale[0]).all(); });
@@ -248,6 +270,7 @@ void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {
 }
 
 RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
+  GaussianBasis::require_phases(s);
   RowMatrix values(s.size(), rows_.cols());
   VectorXd psi(basis_.window_capacity());
   for (Index k = 0; k < s.size(); ++k) evaluate(s[k], psi.data(), values.row(k).data());
@@ -256,6 +279,7 @@ RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
 
 RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
                       const DmpOptions& options) {
+  require_targets(targets);
   const Index dimension = targets.front().value.cols();
   for (Index axis = 0; axis < dimension; ++axis) require_scale(targets, axis);
   if (one_scale(targets)) return fit_axes(basis, targets, options, 0, dimension);
@@ -265,7 +289,12 @@ RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarge
   return weights;
 }
 
-double regression_condition(const GaussianBasis& basis, const DmpOptions& options) {
+double regression_condition(const DmpOptions& options) {
+  // Eigenvalues cost the cube of the kernels, and more of them with the same overlap change nothing.
+  constexpr int kEnough = 300;
+  DmpOptions looked_at = options;
+  looked_at.basis_count = std::min(options.basis_count, kEnough);
+  const GaussianBasis basis = detail::basis_of(looked_at);
   const Index samples = 10 * basis.count() + 1;
   const ForcingTarget even{VectorXd::LinSpaced(samples, 0.0, 1.0), RowMatrix::Zero(samples, 1),
                            VectorXd::Ones(1)};

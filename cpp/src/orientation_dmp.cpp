@@ -123,7 +123,7 @@ OrientationTrajectory OrientationDmp::roll_out(const detail::Timetable& timetabl
   auto& runner = run.state_->runner;
   if (duration) {
     detail::require_duration(*duration);
-    runner.start_with_duration(*duration);
+    runner.set_duration(*duration);
   }
   if (goal) {
     so3::require_rotation(*goal, "goal");
@@ -161,7 +161,13 @@ Status OrientationRun::step(double dt) noexcept { return state_->runner.step(dt)
 
 Status OrientationRun::set_goal(const Matrix3d& goal) noexcept {
   if (!detail::is_rotation(goal)) return Status::invalid_input;
-  state_->runner.motion().set_goal(Quaterniond(goal).normalized());
+  const Quaterniond rotation = Quaterniond(goal).normalized();
+  if (state_->runner.at_start()) {
+    state_->runner.motion().start_with_goal(rotation);
+    state_->runner.publish();
+  } else {
+    state_->runner.motion().set_goal(rotation);
+  }
   return status();
 }
 

@@ -29,10 +29,9 @@ struct PoseMotion {
     position.advance(step, f);
     orientation.advance(step, {f.start + 3, f.middle + 3, f.end + 3});
   }
-  bool finite() const noexcept { return position.finite() && orientation.finite(); }
-  void publish(double speed, double speed_rate, const double* forcing) noexcept {
-    position.publish(speed, speed_rate, forcing);
-    orientation.publish(speed, speed_rate, forcing + 3);
+  bool publish(double speed, double speed_rate, const double* forcing) noexcept {
+    return position.publish(speed, speed_rate, forcing) &&
+           orientation.publish(speed, speed_rate, forcing + 3);
   }
 };
 
@@ -188,7 +187,7 @@ PoseTrajectory PoseDmp::roll_out(const detail::Timetable& timetable, const std::
   auto& runner = run.state_->runner;
   if (duration) {
     detail::require_duration(*duration);
-    runner.start_with_duration(*duration);
+    runner.set_duration(*duration);
   }
   if (goal) {
     detail::require_pose(*goal, "goal");
@@ -223,8 +222,16 @@ Status PoseRun::step(double dt) noexcept { return state_->runner.step(dt); }
 
 Status PoseRun::set_goal(const Matrix4d& goal) noexcept {
   if (!is_pose(goal)) return Status::invalid_input;
-  state_->runner.motion().position.set_goal(goal.topRightCorner<3, 1>());
-  state_->runner.motion().orientation.set_goal(Quaterniond(rotation_of(goal)).normalized());
+  PoseMotion& motion = state_->runner.motion();
+  const Quaterniond rotation = Quaterniond(rotation_of(goal)).normalized();
+  if (state_->runner.at_start()) {
+    motion.position.start_with_goal(goal.topRightCorner<3, 1>());
+    motion.orientation.start_with_goal(rotation);
+    state_->runner.publish();
+  } else {
+    motion.position.set_goal(goal.topRightCorner<3, 1>());
+    motion.orientation.set_goal(rotation);
+  }
   return status();
 }
 

@@ -95,7 +95,7 @@ Vector3d angles_of(const Matrix3d& r, const Convention& convention) {
   const double half_sum = std::atan2(n[1], n[0]);
   const double half_difference = std::atan2(n[3], n[2]);
   Vector3d angles(0.0, proper ? middle : middle - kPi / 2.0, 0.0);
-  constexpr double kLock = 1e-7;
+  constexpr double kLock = 1e-12;
   if (middle < kLock) {
     angles[0] = 2.0 * half_sum;
   } else if (middle > kPi - kLock) {
@@ -142,7 +142,7 @@ Vector3d log(const Quaterniond& q) noexcept {
   const Vector3d v = sign * q.vec();
   const double w = sign * q.w();
   const double squared = v.squaredNorm();
-  const double n = squared > 1e-200 ? std::sqrt(squared) : v.stableNorm();
+  const double n = squared > 1e-200 && squared < 1e200 ? std::sqrt(squared) : v.stableNorm();
   if (n < 1e-8 * w) return v * (2.0 / w) * (1.0 - n * n / (3.0 * w * w));
   if (n == 0.0) return Vector3d::Zero();
   return v * (2.0 * std::atan2(n, w) / n);

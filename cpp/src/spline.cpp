@@ -1,8 +1,10 @@
+#include <dmp/error.hpp>
 #include <dmp/spline.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "detail/local_basis.hpp"
@@ -51,6 +53,16 @@ void blend(const std::array<double, 6>& basis, int degree, const double* coeffic
   }
 }
 
+void require(const Eigen::VectorXd& times, const RowMatrix& values) {
+  if (times.size() < 2 || times.size() != values.rows())
+    throw InvalidArgument("times: " + std::to_string(times.size()) + " for " + std::to_string(values.rows()) +
+                          " rows of values, expected one each and at least 2.");
+  for (Index k = 1; k < times.size(); ++k)
+    if (!(times[k] > times[k - 1]))
+      throw InvalidArgument("times[" + std::to_string(k) +
+                            "]: not after the one before, expected increasing times.");
+}
+
 std::vector<double> not_a_knot(const Eigen::VectorXd& times, int degree) {
   const Index n = times.size();
   const Index skipped = (degree + 1) / 2;  // samples at either end that are no knots
@@ -64,8 +76,9 @@ std::vector<double> not_a_knot(const Eigen::VectorXd& times, int degree) {
 }  // namespace
 
 Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values)
-    : degree_(static_cast<int>(std::min<Index>(kDegree, times.size() - 1))),
-      knots_(not_a_knot(times, degree_)) {
+    : degree_(static_cast<int>(std::min<Index>(kDegree, times.size() - 1))) {
+  require(times, values);
+  knots_ = not_a_knot(times, degree_);
   interpolate(times, values);
   differentiate();
 }

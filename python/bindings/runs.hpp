@@ -30,7 +30,7 @@ bool step(Run& run, double dt) {
     case Status::finished:
       return false;
     case Status::invalid_input:
-      throw InvalidArgument("dt: " + std::to_string(dt) + ", expected a time in s from 0 to 100 durations.");
+      throw InvalidArgument("dt: " + std::to_string(dt) + ", expected a time in s from 0 to 10 durations.");
     default:
       PyErr_SetString(PyExc_FloatingPointError,
                       "step: the state is no longer finite; the last finite output is kept. Call reset().");

@@ -91,6 +91,26 @@ TEST_CASE("a demonstration counts alike however densely each part of it was samp
   CHECK((a - b).cwiseAbs().maxCoeff() < 0.02);
 }
 
+TEST_CASE("a demonstration sampled ten times as often counts no more") {
+  const auto basis = GaussianBasis::equal_in_time(20, kAlphaX, std::log(2.0));
+  const auto f = [](double size) {
+    return [size](double s) { return size * std::exp(-kAlphaX * s) * std::sin(6 * s); };
+  };
+  const RowMatrix joint = fit_forcing(basis, {target_of(400, f(1.0)), target_of(4000, f(2.0))}, {});
+  const RowMatrix middle = fit_forcing(basis, {target_of(4000, f(1.5))}, {});
+  CHECK((joint - middle).cwiseAbs().maxCoeff() < 1e-2 * middle.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("targets that do not fit together are refused") {
+  const auto basis = GaussianBasis::equal_in_time(20, kAlphaX, std::log(2.0));
+  CHECK_THROWS_AS(fit_forcing(basis, {}, {}), InvalidArgument);
+  ForcingTarget target = target_of(50, [](double s) { return s; });
+  target.value.conservativeResize(20, 1);
+  CHECK_THROWS_AS(fit_forcing(basis, {target}, {}), InvalidArgument);
+  CHECK_THROWS_AS(basis.activations(Eigen::VectorXd::Constant(1, NAN)), InvalidArgument);
+  CHECK_THROWS_AS(basis.activations(Eigen::VectorXd::Constant(1, -50.0)), InvalidArgument);
+}
+
 TEST_CASE("demonstrations of different scale are weighed by the square of their scale") {
   const auto basis = GaussianBasis::equal_in_time(20, kAlphaX, std::log(2.0));
   ForcingTarget large = target_of(300, [](double s) { return 2.0 * std::exp(-kAlphaX * s) * (1 + s); });

@@ -37,8 +37,8 @@ TEST_CASE("a new duration is approached without a jump, alike whatever the step"
   for (int i = 0; i < 10; ++i) coarse.advance(0.1);
   for (int i = 0; i < 1000; ++i) fine.advance(0.001);
   CHECK(coarse.s() == doctest::Approx(fine.s()).epsilon(1e-12));
-  CHECK(coarse.speed() == doctest::Approx(1.0 / 3 + 2.0 / 3 * std::exp(-5.0)).epsilon(1e-12));
-  CHECK(coarse.s() == doctest::Approx(1.0 / 3 + 2.0 / 3 * 0.2 * (1 - std::exp(-5.0))).epsilon(1e-12));
+  CHECK(coarse.speed() == doctest::Approx(1.0 / 3 + 2.0 / 3 * 6.0 * std::exp(-5.0)).epsilon(1e-12));
+  CHECK(coarse.s() == doctest::Approx(1.0 / 3 + 2.0 / 3 * 0.2 * (2 - 7.0 * std::exp(-5.0))).epsilon(1e-12));
   for (int i = 0; i < 100; ++i) coarse.advance(0.1);
   CHECK(coarse.speed() == 1.0 / 3);
 }
@@ -48,12 +48,31 @@ TEST_CASE("a pause comes to rest where it says and goes on at full speed") {
   phase.advance(0.5);
   phase.pause();
   phase.advance(5.0);
-  CHECK(phase.s() == doctest::Approx(0.25 + 0.5 * 0.1).epsilon(1e-9));
+  CHECK(phase.s() == doctest::Approx(0.25 + 0.5 * 2 * 0.1).epsilon(1e-9));
   CHECK(phase.speed() == 0.0);
   CHECK(phase.time() == 5.5);
+  phase.reset();
+  CHECK(phase.paused());
+  CHECK(phase.speed() == 0.0);
   phase.resume();
   phase.advance(5.0);
   CHECK(phase.speed() == 0.5);
+}
+
+TEST_CASE("speed and acceleration of the phase are continuous and derivatives of each other") {
+  Phase phase(1.0, 4.6, 0.1);
+  phase.set_duration(2.0);
+  const double h = 1e-6;
+  for (int i = 0; i < 40; ++i) {
+    if (i == 10) phase.pause();
+    if (i == 15) phase.resume();
+    Phase next = phase;
+    next.advance(h);
+    CHECK(std::abs((next.s() - phase.s()) / h - phase.speed()) < 1e-4);
+    CHECK(std::abs((next.speed() - phase.speed()) / h - phase.speed_rate()) < 1e-3);
+    CHECK(next.speed() >= 0.0);
+    phase.advance(0.02);
+  }
 }
 
 TEST_CASE("a tracking error slows the phase to 1 / (tau (1 + k e))") {

@@ -42,7 +42,9 @@ class DMP_EXPORT GaussianBasis {
   /// psi itself: the weights of locally weighted regression.
   Window activations(double s, double* psi) const noexcept DMP_REALTIME;
   /// (T x N) psi at each phase s; each row divided by its sum if `normalised`.
+  /// Throws InvalidArgument for a phase that is not finite or below 0.
   RowMatrix activations(const Eigen::VectorXd& s, bool normalised = false) const;
+  static void require_phases(const Eigen::VectorXd& s);
 
  private:
   GaussianBasis(int count, double alpha_x);

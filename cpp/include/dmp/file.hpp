@@ -14,9 +14,9 @@ namespace dmp {
 using Model = std::variant<Dmp, OrientationDmp, PoseDmp>;
 
 DMP_EXPORT std::string to_json(const Model& model);
-/// Throws InvalidArgument, naming the place, for text that is no JSON, another format, a newer version, an
-/// unknown kind or option, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB or 10^6
-/// numbers.
+/// Throws InvalidArgument, naming the place, for text that is no JSON, another format, another version, an
+/// unknown kind or enumerator, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB or
+/// 10^6 numbers.
 DMP_EXPORT Model from_json(const std::string& text);
 
 /// Writes a temporary file beside `path`, flushes it to disk and renames it: the file is there whole or not

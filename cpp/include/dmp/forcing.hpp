@@ -54,6 +54,7 @@ DMP_EXPORT RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<F
 
 /// The condition number of the matrix that fit_forcing solves with (ridge) or descends on (locally weighted
 /// regression), for samples spread evenly over the phase.
-DMP_EXPORT double regression_condition(const GaussianBasis& basis, const DmpOptions& options);
+/// Beyond 300 kernels that of 300. `options` with every optional one given.
+DMP_EXPORT double regression_condition(const DmpOptions& options);
 
 }  // namespace dmp

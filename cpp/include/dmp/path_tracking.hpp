@@ -20,10 +20,10 @@ struct FollowOptions {
   /// is still to be stretched (duration_factor): then speed only decides between joint paths that are equally
   /// exact.
   bool respect_velocity = false;
-  int anchors = 5;                   ///< poses of the path at which starts are searched, > 0
-  int starts = 24;                   ///< joints tried at each anchor, > 0
-  /// Where tracking misses a pose, search a roadmap of joints for a way through; then calm the null space. About
-  /// 0.3 s a path that needs it. Off, one that many paths are tried with is answered at once.
+  int anchors = 5;  ///< poses of the path at which starts are searched, > 0
+  int starts = 24;  ///< joints tried at each anchor, > 0
+  /// Where tracking misses a pose, search a roadmap of joints for a way through; then calm the null space.
+  /// About 0.3 s a path that needs it. Off, one that many paths are tried with is answered at once.
   bool thorough = true;
   double position_tolerance = 1e-5;  ///< m, > 0: when a pose of the path counts as met
   double angle_tolerance = 1e-5;     ///< rad, > 0

@@ -10,9 +10,9 @@ namespace dmp {
 /// and on beyond it.
 ///
 /// All that changes the tempo on the way (another duration, a tracking error, a pause) sets the speed that sd
-/// goes to, through one first-order filter: velocities do not jump, and the path y(s) is kept exactly. A
-/// tracking error e slows the phase to sd = 1 / (tau (1 + k e)) (phase stopping; Ijspeert et al. 2013), and
-/// the spring and damper with it.
+/// goes to, through one critically damped second-order filter: velocities and accelerations do not jump, and
+/// the path y(s) is kept exactly. A tracking error e slows the phase to sd = 1 / (tau (1 + k e)) (phase
+/// stopping; Ijspeert et al. 2013), and the spring and damper with it.
 class DMP_EXPORT Phase {
  public:
   /// `filter` is the time constant in s of changes of tempo, 0 for jumps; `stop_gain` is k. Throws
@@ -28,9 +28,9 @@ class DMP_EXPORT Phase {
   double duration() const noexcept DMP_REALTIME { return tau_; }
   /// ds/dt as it is now, 1/s, and its rate of change, 1/s^2.
   double speed() const noexcept DMP_REALTIME { return speed_; }
-  double speed_rate() const noexcept DMP_REALTIME;
+  double speed_rate() const noexcept DMP_REALTIME { return speed_rate_; }
 
-  /// False, and nothing changes, unless finite and positive.
+  /// False, and nothing changes, unless 1e-9 to 1e15.
   bool set_duration(double duration) noexcept DMP_REALTIME;
   /// The distance e >= 0 between where the robot is and where it should be, in any unit; see stop_gain.
   /// False, and nothing changes, unless finite and not negative.
@@ -43,11 +43,12 @@ class DMP_EXPORT Phase {
   double increment(double dt) const noexcept DMP_REALTIME;
   /// Moves time, speed and s on by dt.
   void advance(double dt) noexcept DMP_REALTIME;
-  /// Back to the start and to full speed, at the duration that was set last.
+  /// Back to the start, at the duration that was set last and the speed that goes with it; a pause goes on.
   void reset() noexcept DMP_REALTIME;
 
  private:
   void retarget() noexcept;
+  bool settled() const noexcept { return speed_ == target_speed_ && speed_rate_ == 0.0; }
 
   double alpha_x_;
   double filter_;
@@ -57,6 +58,7 @@ class DMP_EXPORT Phase {
   bool paused_ = false;
   double speed_;
   double target_speed_;
+  double speed_rate_ = 0.0;
   double s_ = 0.0;
   double time_ = 0.0;
 };

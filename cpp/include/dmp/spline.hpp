@@ -20,7 +20,7 @@ struct Smoothing {
 /// fewer than six samples it is the polynomial through them.
 class DMP_EXPORT Spline {
  public:
-  /// times (T) strictly increasing, values (T x d), T >= 2. The caller has checked them.
+  /// times (T) strictly increasing, values (T x d), T >= 2. Throws InvalidArgument for other sizes or times.
   Spline(const Eigen::VectorXd& times, const RowMatrix& values);
 
   /// The quintic spline that weighs closeness to the samples against the integral of its squared third

@@ -30,6 +30,13 @@ void require_not_negative(double value, const char* name) {
                           ", expected 0 or a positive number.");
 }
 
+/// What bounds the internal steps of a run, and so its cost.
+void require_at_most(double value, double most, const char* name) {
+  if (value > most)
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected at most " +
+                          number(most) + ".");
+}
+
 VectorXd range(const RowMatrix& values) { return values.colwise().maxCoeff() - values.colwise().minCoeff(); }
 
 /// Second-order differences: central inside, one-sided at the ends; any grid.
@@ -105,6 +112,16 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
   return forcing_of(tau, alpha, beta, p.second, errors, p.first);
 }
 
+/// (g - y0) scales only an axis that ends elsewhere than it starts, measured by the range it covers.
+void require_displacement(const VectorXd& displacement, const VectorXd& amplitude) {
+  for (Index d = 0; d < displacement.size(); ++d)
+    if (amplitude[d] > 0.0 && std::abs(displacement[d]) < 1e-3 * amplitude[d])
+      throw InvalidArgument("scaling: axis " + std::to_string(d) + " of the demonstration ends " +
+                            number(displacement[d]) + " from its start and covers " + number(amplitude[d]) +
+                            ", so (goal - start) can not scale its forcing term. Use Scaling::none or "
+                            "Scaling::per_axis_relative.");
+}
+
 /// Two samples tell where from and where to, but no way and no velocity.
 template <class Velocity>
 void keep_spring_only(Velocity& start, ForcingTarget& target) {
@@ -126,6 +143,10 @@ DmpOptions resolved(const DmpOptions& options) {
   result.orientation_beta = options.orientation_beta.value_or(
       options.orientation_alpha ? *options.orientation_alpha / 4.0 : *result.beta);
   result.overlap = options.overlap.value_or(options.regression == Regression::lwr ? std::log(2.0) : 0.2);
+  require_at_most(result.alpha, 1e4, "alpha");
+  require_at_most(*result.orientation_alpha, 1e4, "orientation_alpha");
+  require_at_most(result.goal_filter, 1e4, "goal_filter");
+  require_at_most(result.alpha_x, 50.0, "alpha_x");
   require_positive(result.alpha, "alpha");
   require_positive(*result.beta, "beta");
   require_positive(*result.orientation_alpha, "orientation_alpha");
@@ -204,6 +225,7 @@ void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacem
                    const VectorXd& reference, const VectorXd& amplitude, const DmpOptions& options) {
   if (options.scaling == Scaling::none) return;
   const Index axes = displacement.size();
+  if (options.scaling == Scaling::per_axis) require_displacement(displacement, amplitude);
   if (options.scaling != Scaling::rotation_dilation) {
     ForcingScale scale(options.scaling, reference, amplitude);
     scale.set(displacement);

@@ -331,7 +331,7 @@ Model model_from_json(const Json& json) {
   const int version = integer_at(member(json, "version", "model"), "version");
   if (version != kVersion)
     throw InvalidArgument("version: " + std::to_string(version) + ", expected " + std::to_string(kVersion) +
-                          ". The file was written by a newer dmpcpp: update.");
+                          (version > kVersion ? ". The file was written by a newer dmpcpp: update." : "."));
   const std::string kind = text_at(member(json, "kind", "model"), "kind");
   if (kind == "dmp") return dmp_at(json);
   if (kind == "orientation_dmp") return orientation_dmp_at(json);

@@ -74,13 +74,14 @@ OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Mat
       spring_(alpha_of(options), *options.orientation_beta),
       scale_(options.scaling, start_error, amplitude),
       model_error_(start_error),
-      q_(start),
+      q_(Quaterniond(start).normalized()),
       eta_(eta),
       e_(start_error),
       z_(Vector3d::Zero()),
-      goal_(goal),
-      target_(goal),
+      goal_(Quaterniond(goal).normalized()),
+      target_(goal_),
       start_(q_),
+      displacement_(start_error),
       rotation_(q_) {
   scale_.set(e_);
   z_ = so3::left_jacobian_inverse(-e_) * eta_;
@@ -96,17 +97,22 @@ void OrientationMotion::begin(const Quaterniond& rotation, const Vector3d& eta) 
   q_ = rotation;
   eta_ = eta;
   e_ = model_error_;  // the branch to start on
+  displacement_ = model_error_;
   jump_to_goal();
-  scale_.set(e_);
 }
 
 void OrientationMotion::set_goal(const Quaterniond& goal) noexcept {
   target_ = goal;
   settled_ = false;
   if (goal_filter_ == 0.0) jump_to_goal();
+}
+
+/// The scale follows the goal as filtered: the forcing term does not jump.
+void OrientationMotion::rescale() noexcept {
   if (unscaled_) return;
-  const Quaterniond turn = target_ * start_.conjugate();
-  scale_.set(branch_ == LogBranch::lifted ? so3::lifted_log(turn, model_error_) : so3::log(turn));
+  const Quaterniond turn = goal_ * start_.conjugate();
+  displacement_ = branch_ == LogBranch::lifted ? so3::lifted_log(turn, displacement_) : so3::log(turn);
+  scale_.set(displacement_);
 }
 
 void OrientationMotion::start_with_goal(const Quaterniond& goal) noexcept {
@@ -118,6 +124,7 @@ void OrientationMotion::jump_to_goal() noexcept {
   goal_ = target_;
   settled_ = true;
   follow_goal();
+  rescale();
 }
 
 void OrientationMotion::follow_goal() noexcept {
@@ -153,6 +160,7 @@ void OrientationMotion::advance(double step, const ForcingNodes& forcing) noexce
     advance_ude(step, scaled(forcing.start, 0), scaled(forcing.middle, 1), end);
   }
   renormalise(q_);
+  if (!settled_) rescale();
   // Nearer than rounding tells: the filter has arrived.
   if (!settled_ && (target_ * goal_.conjugate()).vec().norm() < 1e-15) jump_to_goal();
 }
@@ -212,18 +220,22 @@ void OrientationMotion::advance_euler(double step, const double* end) noexcept {
   e_ = error(goal_, q_);
 }
 
-void OrientationMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
-  rotation_ = q_;
-  velocity_ = eta_ * speed;
+bool OrientationMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
   const double* const f = scaled(forcing, 3);
   Vector3d change;
   if (form_ == OrientationForm::log_linear) {
     const Vector3d zs = spring_.stiffness() * e_ - spring_.alpha() * z_ + Vector3d(f[0], f[1], f[2]);
     change = ExponentialRates(-e_).acceleration(z_, zs);
   } else {
-    change = acceleration(e_, eta_, f);
+    change = this->acceleration(e_, eta_, f);
   }
-  acceleration_ = change * (speed * speed) + eta_ * speed_rate;
+  const Vector3d velocity = eta_ * speed;
+  const Vector3d acceleration = change * (speed * speed) + eta_ * speed_rate;
+  if (!(q_.coeffs().allFinite() && velocity.allFinite() && acceleration.allFinite())) return false;
+  rotation_ = q_;
+  velocity_ = velocity;
+  acceleration_ = acceleration;
+  return true;
 }
 
 }  // namespace dmp::detail

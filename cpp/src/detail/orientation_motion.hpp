@@ -26,8 +26,7 @@ class OrientationMotion {
   void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
-  bool finite() const noexcept { return q_.coeffs().allFinite() && eta_.allFinite(); }
-  void publish(double speed, double speed_rate, const double* forcing) noexcept;
+  bool publish(double speed, double speed_rate, const double* forcing) noexcept;
 
   const Eigen::Quaterniond& rotation() const noexcept { return rotation_; }
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
@@ -36,6 +35,7 @@ class OrientationMotion {
 
  private:
   void jump_to_goal() noexcept;
+  void rescale() noexcept;
   /// e_ anew, after the goal or R changed by other than a step, and z_ so that omega stays.
   void follow_goal() noexcept;
   void advance_ude(double step, const double* start, const double* middle, const double* end) noexcept;
@@ -65,6 +65,7 @@ class OrientationMotion {
   Eigen::Quaterniond goal_;    // as filtered
   Eigen::Quaterniond target_;  // as set
   Eigen::Quaterniond start_;
+  Eigen::Vector3d displacement_;  // Log(Rg R0^T) of this run, on its branch
   bool settled_ = true;
   Eigen::Matrix<double, 4, 3, Eigen::RowMajor> scratch_ =
       Eigen::Matrix<double, 4, 3, Eigen::RowMajor>::Zero();

@@ -21,6 +21,8 @@ PositionMotion::PositionMotion(const DmpOptions& options, const VectorXd& start,
       target_(goal),
       scratch_(RowMatrix::Zero(3, start.size())),
       displacement_(goal - start),
+      next_velocity_(VectorXd::Zero(start.size())),
+      next_acceleration_(VectorXd::Zero(start.size())),
       position_(start),
       velocity_(VectorXd::Zero(start.size())),
       acceleration_(velocity_) {
@@ -40,8 +42,13 @@ void PositionMotion::set_goal(const Eigen::Ref<const VectorXd>& goal) noexcept {
   target_ = goal;
   settled_ = goal_filter_ == 0.0 || goal_ == target_;
   if (settled_) goal_ = target_;
-  // The scale goes by the goal as set: a filtered one would modulate the forcing term.
-  displacement_ = target_ - start_;
+  rescale();
+}
+
+/// The scale follows the goal as filtered: the forcing term does not jump.
+void PositionMotion::rescale() noexcept {
+  if (unscaled_) return;
+  displacement_ = goal_ - start_;
   scale_.set(displacement_);
 }
 
@@ -53,6 +60,7 @@ void PositionMotion::start_with_goal(const Eigen::Ref<const VectorXd>& goal) noe
 void PositionMotion::jump_to_goal() noexcept {
   goal_ = target_;
   settled_ = true;
+  rescale();
 }
 
 const double* PositionMotion::scaled(const double* forcing, int node) noexcept {
@@ -88,7 +96,9 @@ void PositionMotion::advance_exactly(double step, const double* start, const dou
     spring_.advance(u, z_[d], start[d] + pull_start, middle[d] + pull_middle, end[d]);
     y_[d] = goal_[d] + u;
   }
-  if (!settled_ && farthest < 1e-300) jump_to_goal();
+  if (settled_) return;
+  rescale();
+  if (farthest < 1e-300) jump_to_goal();
 }
 
 void PositionMotion::advance_euler(double step, const double* end) noexcept {
@@ -100,14 +110,21 @@ void PositionMotion::advance_euler(double step, const double* end) noexcept {
   }
 }
 
-void PositionMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
+bool PositionMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
   const double* force = scaled(forcing, 2);
+  bool finite = true;
   for (Index d = 0; d < y_.size(); ++d) {
     const double zs = spring_.stiffness() * (goal_[d] - y_[d]) - spring_.alpha() * z_[d] + force[d];
-    position_[d] = y_[d];
-    velocity_[d] = z_[d] * speed;
-    acceleration_[d] = zs * speed * speed + z_[d] * speed_rate;
+    next_velocity_[d] = z_[d] * speed;
+    next_acceleration_[d] = zs * speed * speed + z_[d] * speed_rate;
+    finite = finite && std::isfinite(y_[d]) && std::isfinite(z_[d]) && std::isfinite(next_velocity_[d]) &&
+             std::isfinite(next_acceleration_[d]);
   }
+  if (!finite) return false;
+  position_ = y_;
+  velocity_ = next_velocity_;
+  acceleration_ = next_acceleration_;
+  return true;
 }
 
 }  // namespace dmp::detail

@@ -31,10 +31,9 @@ class PositionMotion {
   void start_with_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept;
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
-  bool finite() const noexcept { return y_.allFinite() && z_.allFinite(); }
   /// Velocity and acceleration while the phase goes at `speed` (ds/dt) and speeds up at `speed_rate`;
   /// `forcing` is the term as it is now.
-  void publish(double speed, double speed_rate, const double* forcing) noexcept;
+  bool publish(double speed, double speed_rate, const double* forcing) noexcept;
 
   const Eigen::VectorXd& position() const noexcept { return position_; }
   const Eigen::VectorXd& velocity() const noexcept { return velocity_; }
@@ -43,6 +42,7 @@ class PositionMotion {
 
  private:
   void jump_to_goal() noexcept;
+  void rescale() noexcept;
   void advance_exactly(double step, const double* start, const double* middle, const double* end) noexcept;
   void advance_euler(double step, const double* end) noexcept;
   /// The forcing term times its scale, in place `node` of the scratch memory.
@@ -61,6 +61,8 @@ class PositionMotion {
   bool settled_ = true;     // goal_ == target_
   RowMatrix scratch_;       // (3 x d) scaled forcing
   Eigen::VectorXd displacement_;
+  Eigen::VectorXd next_velocity_;  // to be looked at before they are given out
+  Eigen::VectorXd next_acceleration_;
   Eigen::VectorXd position_;  // outputs: the last finite ones
   Eigen::VectorXd velocity_;
   Eigen::VectorXd acceleration_;

@@ -27,7 +27,6 @@ class Runner {
         motion_(std::move(motion)),
         nodes_(RowMatrix::Zero(3, forcing.padded_dimension())),
         psi_(forcing.basis().window_capacity()),
-        divides_(options.integrator == Integrator::exact),
         force_after_end_(options.force_after_end),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
     publish();
@@ -44,41 +43,42 @@ class Runner {
     if (!(dt >= 0.0) || !(way <= kFarthest)) return Status::invalid_input;
     advance(way);
     phase_.advance(dt);
-    if (!motion_.finite()) return status_ = Status::not_finite;
-    publish();
+    if (!publish()) return status_ = Status::not_finite;
     return status_ = phase_.s() >= 1.0 - kRounding ? Status::finished : Status::running;
   }
 
-  Status set_duration(double duration) noexcept { return accepted(phase_.set_duration(duration)); }
+  /// Before the first step at once, later through the filter.
+  Status set_duration(double duration) noexcept {
+    const bool taken = phase_.set_duration(duration);
+    if (taken && at_start()) {
+      phase_.reset();
+      publish();
+    }
+    return accepted(taken);
+  }
+  bool at_start() const noexcept { return phase_.time() == 0.0; }
   Status set_tracking_error(double error) noexcept { return accepted(phase_.set_tracking_error(error)); }
   void pause() noexcept { phase_.pause(); }
   void resume() noexcept { phase_.resume(); }
-  /// Before the first step: the duration at once, without the filter.
-  void start_with_duration(double duration) noexcept {
-    phase_.set_duration(duration);
-    phase_.reset();
-  }
-
   /// The phase at its start; then put the motion there and call restart().
   void reset_phase() noexcept { phase_.reset(); }
   void restart() noexcept {
     phase_.reset();
     evaluated_at_ = kNowhere;
-    status_ = Status::running;
-    publish();
+    status_ = publish() ? Status::running : Status::not_finite;
   }
 
-  /// Outputs from the state as it is.
-  void publish() noexcept {
+  /// Outputs from the state as it is; false, and the last ones stay, if they are not finite.
+  bool publish() noexcept {
     const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
     if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
     evaluated_at_ = on ? phase_.s() : kNowhere;
-    motion_.publish(phase_.speed(), phase_.speed_rate(), node(kEnd));
+    return motion_.publish(phase_.speed(), phase_.speed_rate(), node(kEnd));
   }
 
  private:
   static constexpr double kRounding = 1e-9;
-  static constexpr double kFarthest = 100.0;  // durations in one call: bounds the work
+  static constexpr double kFarthest = 10.0;  // durations in one call: bounds the work
   static constexpr double kNowhere = -1.0;
   enum Node : Eigen::Index { kStart, kMiddle, kEnd };
 
@@ -99,7 +99,7 @@ class Runner {
   void advance(double way) noexcept {
     double s = phase_.s();
     const bool straddles = s < 1.0 - kRounding && s + way > 1.0 + kRounding;
-    if (straddles && divides_) {
+    if (straddles && !force_after_end_) {
       advance_evenly(s, 1.0 - s);
       way -= 1.0 - s;
       s = 1.0;
@@ -109,7 +109,7 @@ class Runner {
 
   void advance_evenly(double s, double way) noexcept {
     if (way <= 0.0) return;
-    const int pieces = divides_ ? std::max(1, static_cast<int>(std::ceil(way / largest_step_ - 1e-6))) : 1;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(way / largest_step_ - 1e-6)));
     const double piece = way / pieces;
     const bool on = force_after_end_ || s < 1.0 - kRounding;
     for (int i = 0; i < pieces; ++i) advance_once(s + i * piece, piece, on);
@@ -133,7 +133,6 @@ class Runner {
   RowMatrix nodes_;
   Eigen::VectorXd psi_;
   double evaluated_at_ = kNowhere;  // the phase whose forcing stands in the last node
-  bool divides_;
   bool force_after_end_;
   double largest_step_;
   Status status_ = Status::running;
