@@ -118,10 +118,14 @@ Route RouteSearch::from_anchors(const TargetPath& path) {
   return best;
 }
 
-// Small roadmaps find most ways; some ways are narrow.
-void RouteSearch::by_roadmap(const TargetPath& path, const std::optional<Joints>& start, Route& best) const {
+// Small roadmaps find most ways; some ways are narrow. A given start stays as close to the first pose as it
+// came.
+void RouteSearch::by_roadmap(const TargetPath& path, Route& best) const {
   constexpr std::array<RoadmapSize, 3> sizes = {
       {{60, 60, 200, 100}, {60, 200, 500, 300}, {200, 100, 200, 300}}};
+  std::optional<Joints> start;
+  if (options_.start) start = best.joints.front();
+  if (start && !tracker_.meets(path.target.front(), *start)) return;
   for (const RoadmapSize& size : sizes) {
     const auto route = Roadmap(model_, tracker_, path, size, random_seed_, start).shortest();
     if (!route) continue;
@@ -130,18 +134,16 @@ void RouteSearch::by_roadmap(const TargetPath& path, const std::optional<Joints>
   }
 }
 
+void RouteSearch::calm(const TargetPath& path, Route& best) const {
+  const auto route = calmed(model_, tracker_, path, best);
+  if (route && route->better_than(best)) best = *route;
+}
+
 Route RouteSearch::best(const TargetPath& path) {
-  std::optional<Joints> start;
-  if (options_.start) start = Joints(*options_.start);
-  Route best = start ? from_start(path, *start) : from_anchors(path);
+  Route best = options_.start ? from_start(path, Joints(*options_.start)) : from_anchors(path);
   if (!options_.thorough) return best;
-  if (start) start = best.joints.front();  // as close to the first pose as the robot comes
-  if (!best.complete() && (!start || tracker_.meets(path.target.front(), *start)))
-    by_roadmap(path, start, best);
-  if (!start && best.complete()) {
-    const auto calm = calmed(model_, tracker_, path, best);
-    if (calm && calm->better_than(best)) best = *calm;
-  }
+  if (!best.complete()) by_roadmap(path, best);
+  if (!options_.start && best.complete()) calm(path, best);
   return best;
 }
 

@@ -28,7 +28,8 @@ class RouteSearch {
   std::vector<Candidate> candidates(const TargetPath& path);
   std::vector<double> pulls() const;
   Route from_anchors(const TargetPath& path);
-  void by_roadmap(const TargetPath& path, const std::optional<Joints>& start, Route& best) const;
+  void by_roadmap(const TargetPath& path, Route& best) const;
+  void calm(const TargetPath& path, Route& best) const;
   Route from_start(const TargetPath& path, const Joints& start);
 
   const FollowOptions& options_;
