@@ -94,9 +94,8 @@ def rotation_through_pi() -> list[Figure]:
         for count, goal in ((50, 0.01), (100, 1e-3)):
             name = f"rotation t < 4.995 through pi, {'rest-to-rest' if rest else 'natural'}, N = {count}"
             others = _peers(peers.orientation_learners(), shown, count, angle_rmse)
-            figures.append(
-                Figure(name, angle_rmse(shown, reproduced_rotation(shown, basis_count=count)), goal, "deg", others)
-            )
+            value = angle_rmse(shown, reproduced_rotation(shown, basis_count=count))
+            figures.append(Figure(name, value, goal, "deg", others))
     return figures
 
 
@@ -106,11 +105,8 @@ def reach_rotations() -> list[Figure]:
     for turns in (1.0, 1.2, 1.5, 2.0):
         shown = demonstrations.reach_rotation(turns * math.pi)
         others = _peers(peers.orientation_learners(), shown, 100, angle_rmse)
-        figures.append(
-            Figure(
-                f"reach rotation by {turns:g} pi", angle_rmse(shown, reproduced_rotation(shown)), 0.01, "deg", others
-            )
-        )
+        value = angle_rmse(shown, reproduced_rotation(shown))
+        figures.append(Figure(f"reach rotation by {turns:g} pi", value, 0.01, "deg", others))
     return figures
 
 
