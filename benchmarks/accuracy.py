@@ -10,12 +10,15 @@ import json
 import platform
 import sys
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from benchmarks import demonstrations, figures, peers
 from benchmarks.figures import Figure
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 _COLUMNS = ("movement_primitives", "movement_primitives, stepped", "pydmps")
 _NO_RECORDINGS = "recorded poses left out: DMPCPP_RECORDINGS does not name a folder with robotasks_clfd"
@@ -62,25 +65,28 @@ def _summary(measured: list[Figure]) -> dict[str, Any]:
 
 def _print(measured: list[Figure]) -> None:
     from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
 
-    table = Table(title="root mean square errors unless the line says otherwise", title_justify="left")
-    for k, title in enumerate(("", "unit", "dmpcpp", "goal", "", *_COLUMNS)):
-        table.add_column(escape(title), justify="right" if k in (2, 3) or k > 4 else "left")
-    for figure in measured:
-        mark = "[green]ok[/]" if figure.ok else "[bold red]MISS[/]"
-        others = (f"{figure.peers[name]:.3g}" if name in figure.peers else "" for name in _COLUMNS)
-        table.add_row(figure.name, figure.unit, f"{figure.value:.3g}", f"{figure.goal:.3g}", mark, *others)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else 140)
-    console.print(table)
+    console.print(_table(measured))
     for name, version in peers.installed().items():
         missing = f'not installed: pip install "dmpcpp[bench]" or {peers.PACKAGES[name]}'
         console.print(f"{name} {version or missing}", markup=False)
     if not demonstrations.recordings():
         console.print(_NO_RECORDINGS)
-    missed = sum(not figure.ok for figure in measured)
-    console.print(f"{len(measured) - missed} of {len(measured)} goals reached")
+    console.print(f"{sum(figure.ok for figure in measured)} of {len(measured)} goals reached")
+
+
+def _table(measured: list[Figure]) -> Table:
+    from rich.table import Table
+
+    table = Table(title="root mean square errors unless the line says otherwise", title_justify="left")
+    for k, title in enumerate(("", "unit", "dmpcpp", "goal", "", *_COLUMNS)):
+        table.add_column(title, justify="right" if k in (2, 3) or k > 4 else "left")
+    for figure in measured:
+        mark = "[green]ok[/]" if figure.ok else "[bold red]MISS[/]"
+        others = (f"{figure.peers[name]:.3g}" if name in figure.peers else "" for name in _COLUMNS)
+        table.add_row(figure.name, figure.unit, f"{figure.value:.3g}", f"{figure.goal:.3g}", mark, *others)
+    return table
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """Pictures: of a motion that an arm carried out, and of an experiment that was reproduced.
 
-Functions draw into matplotlib axes that they are given and return them; `picture` and `pages` compose whole pages
-into files. Nothing here touches `matplotlib.pyplot` or its state. Colours are those of Okabe and Ito ("Color
-Universal Design", 2008), told apart with every kind of colour vision; every series differs in its stroke as well.
+Functions draw into matplotlib axes that they are given and return them; `picture` composes a whole page into a file,
+`figure` and `save` are there for pages of your own. Nothing here touches `matplotlib.pyplot` or its state. Colours are
+those of Okabe and Ito ("Color Universal Design", 2008), told apart with every kind of colour vision; every series
+differs in its stroke as well.
 """
 
 from dmpcpp.plot.execution import ErrorCurve, angle_error, paths, picture, position_error
