@@ -171,9 +171,6 @@ void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOpti
   if (options.derivatives != Derivatives::smooth && report.noise.maxCoeff() > 3.0 * report.rmse.maxCoeff())
     report.warnings.push_back("noise: " + number(report.noise.maxCoeff()) +
                               " was found and learned with the motion. Derivatives::smooth takes it out.");
-  if (report.suggested_basis_count == 0)
-    report.warnings.push_back("suggested_basis_count: no number of kernels up to " +
-                              std::to_string(kMostKernels) + " reaches the tolerance.");
 }
 
 template <class Model, class Demonstrations>

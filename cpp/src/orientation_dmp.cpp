@@ -2,6 +2,8 @@
 #include <dmp/orientation_dmp.hpp>
 #include <dmp/so3.hpp>
 
+#include <cmath>
+
 #include "detail/learning.hpp"
 #include "detail/orientation_motion.hpp"
 #include "detail/parameters.hpp"
@@ -33,6 +35,8 @@ OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   detail::require_duration(given.duration);
   so3::require_rotation(given.start, "start");
   so3::require_rotation(given.goal, "goal");
+  parameters.start = detail::exact(given.start);
+  parameters.goal = detail::exact(given.goal);
   detail::require_finite(given.start_velocity, 3, "start_velocity");
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 3, "amplitude");
@@ -76,10 +80,7 @@ OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& 
                                    const DmpOptions& options) {
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
   DmpOptions resolved = detail::resolved(options);
-  double farthest = 0.0;
-  for (const OrientationDemonstration& demonstration : demonstrations)
-    farthest = std::max(farthest, detail::largest_log(demonstration, resolved.log_branch));
-  resolved.orientation_form = detail::form_for(resolved, farthest);
+  resolved.orientation_form = detail::form_for(resolved, demonstrations.front());
   std::vector<detail::OrientationLesson> lessons;
   for (const OrientationDemonstration& demonstration : demonstrations)
     lessons.push_back(detail::lesson_of(demonstration, resolved));
@@ -208,5 +209,23 @@ double OrientationRun::time() const noexcept { return state_->runner.phase().tim
 double OrientationRun::phase() const noexcept { return state_->runner.phase().s(); }
 double OrientationRun::duration() const noexcept { return state_->runner.phase().duration(); }
 Status OrientationRun::status() const noexcept { return state_->runner.status(); }
+
+OrientationForm detail::form_for(const DmpOptions& options, const OrientationDemonstration& demonstration) {
+  const OrientationForm likely = form_for(options, largest_log(demonstration, options.log_branch));
+  if (options.orientation_form != OrientationForm::automatic || likely == OrientationForm::ude) return likely;
+  // Far from the goal neither form is always the better one: near 2 pi the logarithm turns quickly.
+  const auto miss = [&](OrientationForm form) {
+    DmpOptions tried = options;
+    tried.orientation_form = form;
+    const Rotations again =
+        OrientationDmp::fit(demonstration, tried).rollout_at(demonstration.time()).rotation;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < again.size(); ++k)
+      squares += std::pow(so3::distance(again[k], demonstration.rotation()[k]), 2);
+    return squares;
+  };
+  return miss(OrientationForm::ude) < miss(OrientationForm::log_linear) ? OrientationForm::ude
+                                                                        : OrientationForm::log_linear;
+}
 
 }  // namespace dmp

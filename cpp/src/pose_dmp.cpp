@@ -63,6 +63,8 @@ PoseDmpParameters checked(const PoseDmpParameters& given) {
   detail::require_duration(given.duration);
   detail::require_pose(given.start, "start");
   detail::require_pose(given.goal, "goal");
+  parameters.start.topLeftCorner<3, 3>() = detail::exact(rotation_of(given.start));
+  parameters.goal.topLeftCorner<3, 3>() = detail::exact(rotation_of(given.goal));
   detail::require_finite(given.start_twist, 6, "start_twist");
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 6, "amplitude");
@@ -139,10 +141,7 @@ PoseDmp PoseDmp::fit(const PoseDemonstration& demonstration, const DmpOptions& o
 PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const DmpOptions& options) {
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
   DmpOptions resolved = detail::resolved(options);
-  double farthest = 0.0;
-  for (const PoseDemonstration& demonstration : demonstrations)
-    farthest = std::max(farthest, detail::largest_log(demonstration.orientation(), resolved.log_branch));
-  resolved.orientation_form = detail::form_for(resolved, farthest);
+  resolved.orientation_form = detail::form_for(resolved, demonstrations.front().orientation());
   std::vector<PoseLesson> lessons;
   for (const PoseDemonstration& demonstration : demonstrations)
     lessons.push_back(lesson_of(demonstration, resolved));
@@ -195,11 +194,12 @@ PoseTrajectory PoseDmp::roll_out(const detail::Timetable& timetable, const std::
     runner.motion().orientation.start_with_goal(Quaterniond(rotation_of(*goal)).normalized());
   }
   runner.publish();
-  PoseTrajectory result{times, {}, RowMatrix(times.size(), 6)};
+  PoseTrajectory result{times, {}, RowMatrix(times.size(), 6), RowMatrix(times.size(), 6)};
   result.pose.reserve(static_cast<std::size_t>(times.size()));
   detail::roll_out(runner, timetable, [&](Index k) {
     result.pose.push_back(run.pose());
     result.twist.row(k) = run.twist();
+    result.acceleration.row(k) = run.acceleration();
   });
   return result;
 }

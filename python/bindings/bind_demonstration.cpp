@@ -59,6 +59,9 @@ void bind_trajectories(py::module_& m) {
       .def_property_readonly(
           "twist", [](const P& t) { return from_matrix(t.twist); },
           "(T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame")
+      .def_property_readonly(
+          "acceleration", [](const P& t) { return from_matrix(t.acceleration); },
+          "(T, 6) the twist's rate, m/s^2 and rad/s^2")
       .def("__len__", [](const P& t) { return t.time.size(); });
 }
 

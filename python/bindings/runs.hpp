@@ -45,26 +45,28 @@ void def_run(py::class_<Run>& run) {
           "FloatingPointError when "
           "the state is not finite.")
       .def(
-          "set_duration",
-          [](Run& r, double duration) {
-            require_accepted(r.set_duration(duration), "duration: expected a positive finite time in s.");
-          },
-          py::arg("duration"), "The duration in s of the whole motion from now on; the path stays the same.")
-      .def(
           "set_tracking_error",
           [](Run& r, double error) {
             require_accepted(r.set_tracking_error(error), "error: expected a finite distance, 0 or more.");
           },
-          py::arg("error"), "How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.")
+          py::arg("error"),
+          "How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.")
       .def("pause", &Run::pause, "Comes to rest on the path, through options.tempo_filter.")
       .def("resume", &Run::resume, "Goes on from there.")
       .def_property_readonly("paused", &Run::paused)
       .def("reset", &Run::reset,
            "Begins anew at the demonstrated start, with the goal and duration that were set last.")
       .def("__copy__", [](const Run& r) { return Run(r); })
+      .def(
+          "__deepcopy__", [](const Run& r, const py::dict&) { return Run(r); }, py::arg("memo"))
       .def_property_readonly("time", &Run::time, "s since the start")
       .def_property_readonly("phase", &Run::phase, "0 at the start, 1 at the end")
-      .def_property_readonly("duration", &Run::duration, "s")
+      .def_property(
+          "duration", &Run::duration,
+          [](Run& r, double duration) {
+            require_accepted(r.set_duration(duration), "duration: expected a time in s, 1e-9 to 1e15.");
+          },
+          "s, of the whole motion from now on; the path stays the same")
       .def_property_readonly("status", &Run::status);
 }
 

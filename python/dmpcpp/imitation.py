@@ -169,22 +169,23 @@ def imitate(
 def learn(demonstration: PoseDemonstration, basis_count: int | None = None) -> PoseDmp:
     """Learn a demonstration with as many kernels as it needs to be reproduced to 0.2 mm and 0.1 deg RMSE.
 
-    Where even the most kernels do not reach that, the model that came closest is returned. `basis_count`
-    sets the number instead.
+    Where even the most kernels do not reach that, the noise found in the data is smoothed out; the model that
+    came closest is returned. `basis_count` sets the number instead.
     """
     if basis_count is not None:
         return PoseDmp.fit(demonstration, basis_count=basis_count)
     best: tuple[float, PoseDmp] | None = None
-    for count in _KERNELS:
-        if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
-            break
-        model = PoseDmp.fit(demonstration, basis_count=count)
-        errors = _reproduction(model, demonstration)
-        miss = max(errors.position_rmse / _GOOD_POSITION, errors.angle_rmse / _GOOD_ANGLE)
-        if best is None or miss < best[0]:
-            best = miss, model
-        if miss <= 1.0:
-            break
+    for derivatives in ("interpolate", "smooth"):  # noise is learned with the motion unless it is taken out
+        for count in _KERNELS:
+            if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
+                break
+            model = PoseDmp.fit(demonstration, basis_count=count, derivatives=derivatives)
+            errors = _reproduction(model, demonstration)
+            miss = max(errors.position_rmse / _GOOD_POSITION, errors.angle_rmse / _GOOD_ANGLE)
+            if best is None or miss < best[0]:
+                best = miss, model
+            if miss <= 1.0:
+                return model
     assert best is not None
     return best[1]
 

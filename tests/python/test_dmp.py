@@ -90,7 +90,7 @@ def test_a_run_is_true_while_it_runs_and_false_when_it_has_finished():
         steps += 1
     assert steps == 99 and run.status == dmpcpp.Status.finished
     assert np.allclose(run.position, model.rollout(dt=0.01).position[-1])
-    other = copy.copy(run)
+    other = copy.deepcopy(copy.copy(run))
     run.reset()
     assert np.allclose(run.position, model.start) and not np.allclose(other.position, model.start)
 
@@ -102,7 +102,7 @@ def test_a_goal_and_a_duration_can_be_changed_on_the_way():
     goal = run.goal
     goal[:3, 3] += 0.1
     run.goal = goal
-    run.set_duration(5.0)
+    run.duration = 5.0
     while run.step(0.01):
         pass
     for _ in range(500):
@@ -119,7 +119,7 @@ def test_a_refused_call_changes_nothing():
     with pytest.raises(InvalidArgument, match="dt: -0.1"):
         run.step(-0.1)
     with pytest.raises(InvalidArgument, match="duration"):
-        run.set_duration(0.0)
+        run.duration = 0.0
     with pytest.raises(InvalidArgument, match="start_from"):
         run.start_from([0, 0], [0, 0, 0])
     assert (run.position == position).all() and (run.goal == goal).all()
@@ -223,3 +223,41 @@ def test_recorded_poses_are_reproduced(recorded):
             angles.append(np.degrees(np.sqrt(np.mean(turn.magnitude() ** 2))))
     assert np.median(shares) <= 0.006
     assert np.median(angles) <= 0.2
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"orientation_alpha": 40.0},
+        {"orientation_alpha": 40.0, "orientation_beta": 8.0},
+        {"orientation_form": "log_linear"},
+        {"log_branch": "principal"},
+        {"kernels": "source"},
+        {"overlap": 0.4},
+        {"scaling": "per_axis_relative"},
+        {"scaling": "rotation_dilation"},
+        {"derivatives": "smooth"},
+        {"integrator": "semi_implicit_euler"},
+        {"force_after_end": True},
+        {"goal_filter": 0.0},
+        {"tempo_filter": 0.0},
+        {"phase_stop": 10.0},
+    ],
+    ids=str,
+)
+def test_every_option_changes_what_it_names_and_still_reproduces(fields):
+    demonstration = poses()
+    model = PoseDmp.fit(demonstration, **fields)
+    for name, value in fields.items():
+        found = getattr(model.options, name)
+        assert (found.name if isinstance(value, str) else found) == value
+    again = dmpcpp.from_json(dmpcpp.to_json(model)).rollout_at(demonstration.time)
+    assert np.abs(again.position - demonstration.pose[:, :3, 3]).max() < 0.02
+    assert np.abs(again.rotation - demonstration.pose[:, :3, :3]).max() < 0.1
+
+
+def test_a_phase_that_is_no_phase_is_refused():
+    model = Dmp.fit(helix())
+    for phase in ([np.nan], [-1.0], [np.inf]):
+        with pytest.raises(InvalidArgument, match=r"phase\[0\]"):
+            model.forcing(phase)

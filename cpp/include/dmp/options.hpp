@@ -23,7 +23,7 @@ enum class Scaling {
 
 /// The equation of motion of orientations; see OrientationDmp.
 /// automatic: ude for a demonstration that stays within 3 rad of its goal, where its spring is stable;
-/// log_linear beyond.
+/// beyond, whichever of the two reproduces the (first) demonstration better.
 enum class OrientationForm { automatic, ude, log_linear };
 
 /// What a rollout starts with: the velocity that was demonstrated, or rest.

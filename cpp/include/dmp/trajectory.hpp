@@ -30,8 +30,8 @@ struct OrientationTrajectory {
 struct PoseTrajectory {
   Eigen::VectorXd time;  ///< (T) s
   Poses pose;            ///< (T) [R p; 0 1], body -> world
-  RowMatrix
-      twist;  ///< (T x 6) linear velocity of the origin [m/s], then angular velocity [rad/s], world frame
+  RowMatrix twist;  ///< (T x 6) linear velocity of the origin [m/s], angular velocity [rad/s]; world frame
+  RowMatrix acceleration;  ///< (T x 6) the twist's rate: m/s^2, then rad/s^2
 };
 
 }  // namespace dmp

@@ -19,6 +19,10 @@ double largest_log(const OrientationDemonstration& demonstration, LogBranch bran
 /// OrientationForm::automatic.
 OrientationForm form_for(const DmpOptions& options, double largest_log);
 
+/// The same for a demonstration: within 3 rad of its goal the UDE form; beyond, whichever of both reproduces
+/// it better.
+OrientationForm form_for(const DmpOptions& options, const OrientationDemonstration& demonstration);
+
 GaussianBasis basis_of(const DmpOptions& resolved);
 
 /// Where a demonstration is looked at: at its samples, or, where they are few for the kernels, on the spline

@@ -35,6 +35,12 @@ inline void require_pose(const Eigen::Matrix4d& pose, const std::string& name) {
   so3::require_rotation(pose.topLeftCorner<3, 3>(), name);
 }
 
+/// The nearest rotation; one that is exact but for rounding keeps its bits.
+inline Eigen::Matrix3d exact(const Eigen::Matrix3d& r) {
+  const double defect = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return defect < 1e-9 ? r : so3::nearest_rotation(r);
+}
+
 /// True for a rotation to 1e-6; for the control loop, which may not throw.
 inline bool is_rotation(const Eigen::Matrix3d& r) noexcept {
   return r.allFinite() && (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-6 &&

@@ -1,0 +1,136 @@
+// Counts every allocation of the process: the methods that a control loop may call make none.
+#include <doctest/doctest.h>
+#include <dmp/pose_dmp.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "motions.hpp"
+
+extern "C" void* __libc_malloc(std::size_t size);
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+using namespace dmp;
+using namespace motions;
+
+namespace {
+
+/// How often memory was asked for while `loop` ran.
+template <class Loop>
+long allocations_in(Loop loop) {
+  const long before = allocations;
+  loop();
+  return allocations - before;
+}
+
+DmpOptions options_of(Scaling scaling, OrientationForm form) {
+  DmpOptions options;
+  options.scaling = scaling;
+  options.orientation_form = form;
+  options.phase_stop = 10.0;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the counter counts") {
+  CHECK(allocations_in([] { std::free(std::malloc(100)); }) + allocations_in([] { Eigen::VectorXd::Random(100).eval(); }) >= 1);
+}
+
+TEST_CASE("a run of positions and orientations takes no memory in the loop, whatever happens on the way") {
+  const PoseDemonstration demonstration = pose(300, 2.0);
+  for (const Scaling scaling : {Scaling::none, Scaling::per_axis_relative, Scaling::rotation_dilation})
+    for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear}) {
+      PoseRun run(PoseDmp::fit(demonstration, options_of(scaling, form)));
+      Eigen::Matrix4d goal = run.goal();
+      goal(0, 3) += .1;
+      const Eigen::Matrix4d start = run.pose();
+      const Eigen::Matrix<double, 6, 1> twist = run.twist();
+      double sum = 0.0;
+      const long count = allocations_in([&] {
+        for (int i = 0; i < 3000; ++i) {
+          run.step(1e-3);
+          if (i == 500) run.set_goal(goal);
+          if (i == 700) run.set_duration(3.0);
+          if (i == 900) run.pause();
+          if (i == 1000) run.resume();
+          if (i == 1100) run.set_tracking_error(.1);
+          if (i == 1500) run.start_from(start, twist);
+          if (i == 2500) run.reset();
+          sum += run.pose()(0, 3) + run.twist()[0] + run.acceleration()[5] + run.time() + run.phase() +
+                 run.duration();
+        }
+      });
+      CHECK(count == 0);
+      CHECK(std::isfinite(sum));
+    }
+}
+
+TEST_CASE("runs of positions in any number of dimensions and of orientations take none either") {
+  Run run(Dmp::fit(helix(300, 2.0, .1, .2, 2)));
+  const Eigen::VectorXd goal = run.goal() * 1.1;
+  OrientationRun turn(OrientationDmp::fit(rotation(300, 2.0, 3.0)));
+  const Eigen::Matrix3d there = turn.goal() * so3::exp({.1, 0, 0});
+  CHECK(allocations_in([&] {
+          for (int i = 0; i < 2500; ++i) {
+            if (i == 300) run.set_goal(goal);
+            if (i == 300) turn.set_goal(there);
+            run.step(1e-3);
+            turn.step(1e-3);
+          }
+          run.reset();
+          turn.reset();
+        }) == 0);
+}
+
+TEST_CASE("these are the methods that a control loop may call") {
+  std::set<std::string> found;
+  for (const char* header : {"dmp.hpp", "orientation_dmp.hpp", "pose_dmp.hpp"}) {
+    std::ifstream file(std::filesystem::path(DMP_INCLUDE_FOLDER) / "dmp" / header);
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string source = text.str();
+    const std::regex method(
+        "(\\w+)\\([^()]*(?:\\([^()]*\\)[^()]*)*\\)\\s*(?:const\\s+)?noexcept\\s+DMP_REALTIME");
+    for (std::sregex_iterator it(source.begin(), source.end(), method), end; it != end; ++it)
+      found.insert((*it)[1]);
+  }
+  const std::set<std::string> expected{"acceleration",
+                                       "angular_acceleration",
+                                       "angular_velocity",
+                                       "duration",
+                                       "goal",
+                                       "pause",
+                                       "paused",
+                                       "phase",
+                                       "pose",
+                                       "position",
+                                       "quaternion",
+                                       "reset",
+                                       "resume",
+                                       "rotation",
+                                       "set_duration",
+                                       "set_goal",
+                                       "set_tracking_error",
+                                       "start_from",
+                                       "status",
+                                       "step",
+                                       "time",
+                                       "twist",
+                                       "velocity"};
+  CHECK(found == expected);
+}
