@@ -59,7 +59,7 @@ install_python_package() {
     python=$(find_python) || exit 1
     "$python" -m venv "$venv" || stop "could not make $venv"
   fi
-  echo "dmpcpp: building and installing the package into .venv (a minute or two)"
+  echo "dmpcpp: building and installing the package into .venv (some minutes)"
   "$venv/bin/pip" install -q --disable-pip-version-check "$root[sim,plot,test]" ||
     stop "pip could not install the package: see above."
   echo "$stamp" >"$venv/dmpcpp.stamp"

@@ -85,7 +85,8 @@ class DMP_EXPORT Run {
 
   /// Moves on by dt seconds (0 or more), in internal steps of at most 0.005 of the duration.
   Status step(double dt) noexcept DMP_REALTIME;
-  /// The goal (d) to go to from now on, approached through DmpOptions::goal_filter.
+  /// The goal (d) to go to from now on, approached through DmpOptions::goal_filter; before the
+  /// first step it counts at once.
   Status set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept DMP_REALTIME;
   /// The duration (s) of the whole motion from now on; the path stays the same. DmpOptions::tempo_filter.
   Status set_duration(double duration) noexcept DMP_REALTIME;

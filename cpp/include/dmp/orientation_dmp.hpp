@@ -39,7 +39,7 @@ struct OrientationDmpParameters {
 ///   log-linear form:     tau z_d = alpha (-beta p - z) + S f(x),  tau p_d = z,  R = Exp(p) Rg
 ///
 /// (Ude et al. 2014, ICRA, with omega in the world frame; Koutras and Doulgeri 2020 for the second. The
-/// logarithm is followed beyond pi, so that total rotations of any size reproduce.) Gains:
+/// logarithm is followed beyond pi: total rotations of up to 2 pi reproduce, about one axis any.) Gains:
 /// DmpOptions::orientation_alpha, _beta.
 class DMP_EXPORT OrientationDmp {
  public:

@@ -73,6 +73,11 @@ class PoseTrajectory:
     def __len__(self) -> int:
         ...
     @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 6) the twist's rate, m/s^2 and rad/s^2
+        """
+    @property
     def pose(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (T, 4, 4) [R p; 0 1], body -> world
@@ -542,6 +547,8 @@ class Run:
     """
     def __copy__(self) -> Run:
         ...
+    def __deepcopy__(self, memo: dict) -> Run:
+        ...
     def __init__(self, dmp: Dmp) -> None:
         ...
     def pause(self) -> None:
@@ -555,10 +562,6 @@ class Run:
     def resume(self) -> None:
         """
         Goes on from there.
-        """
-    def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        """
-        The duration in s of the whole motion from now on; the path stays the same.
         """
     def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
@@ -580,8 +583,11 @@ class Run:
     @property
     def duration(self) -> float:
         """
-        s
+        s, of the whole motion from now on; the path stays the same
         """
+    @duration.setter
+    def duration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def goal(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -681,6 +687,8 @@ class OrientationRun:
     """
     def __copy__(self) -> OrientationRun:
         ...
+    def __deepcopy__(self, memo: dict) -> OrientationRun:
+        ...
     def __init__(self, dmp: OrientationDmp) -> None:
         ...
     def pause(self) -> None:
@@ -694,10 +702,6 @@ class OrientationRun:
     def resume(self) -> None:
         """
         Goes on from there.
-        """
-    def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        """
-        The duration in s of the whole motion from now on; the path stays the same.
         """
     def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
@@ -724,8 +728,11 @@ class OrientationRun:
     @property
     def duration(self) -> float:
         """
-        s
+        s, of the whole motion from now on; the path stays the same
         """
+    @duration.setter
+    def duration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def goal(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -820,6 +827,8 @@ class PoseRun:
     """
     def __copy__(self) -> PoseRun:
         ...
+    def __deepcopy__(self, memo: dict) -> PoseRun:
+        ...
     def __init__(self, dmp: PoseDmp) -> None:
         ...
     def pause(self) -> None:
@@ -833,10 +842,6 @@ class PoseRun:
     def resume(self) -> None:
         """
         Goes on from there.
-        """
-    def set_duration(self, duration: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        """
-        The duration in s of the whole motion from now on; the path stays the same.
         """
     def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
@@ -858,8 +863,11 @@ class PoseRun:
     @property
     def duration(self) -> float:
         """
-        s
+        s, of the whole motion from now on; the path stays the same
         """
+    @duration.setter
+    def duration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def goal(self) -> numpy.typing.NDArray[numpy.float64]:
         """

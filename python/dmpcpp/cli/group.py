@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import click
 from dmpcpp import __version__
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
-WRONG_INPUT, FAILED = 2, 3
+WRONG_INPUT, FAILED, INTERRUPTED = 2, 3, 130
 
 
 class _Group(click.Group):
@@ -22,6 +23,9 @@ class _Group(click.Group):
         except (InvalidArgument, MissingDependency, OSError) as error:
             click.echo(f"dmpcpp: {error}", err=True)
             ctx.exit(WRONG_INPUT)
+        except KeyboardInterrupt:
+            click.echo("dmpcpp: interrupted.", err=True)
+            ctx.exit(INTERRUPTED)
 
 
 @click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -31,6 +35,11 @@ def main() -> None:
 
 
 def refuse_file(out: Path) -> None:
-    """Raise InvalidArgument where the folder of the results is a file, before anything runs."""
+    """Raise InvalidArgument where the results could not be written to a folder, before anything runs."""
     if out.exists() and not out.is_dir():
         raise InvalidArgument(f"--out: '{out}' is a file, expected a folder.")
+    nearest = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
+    if not nearest.is_dir():
+        raise InvalidArgument(f"--out: '{nearest}' is a file, expected a folder.")
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise InvalidArgument(f"--out: '{out}' can not be written: no permission in '{nearest}'.")

@@ -51,7 +51,13 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 type=click.Path(file_okay=False, path_type=Path),
                 help="Folder for model.json, plan.npz, joints.csv, picture.png, summary.json.",
             ),
-            click.option("--seed", default=0, show_default=True, help="Of the search for a placement."),
+            click.option(
+                "--seed",
+                default=0,
+                show_default=True,
+                type=click.IntRange(0),
+                help="Of the search for a placement.",
+            ),
             click.option(
                 "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
             ),
@@ -92,7 +98,7 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
     metavar="x|y|z",
     help="The recording's axis that points up, where the format does not say it.",
 )
-@click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..).")
+@click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0.")
 @click.option("--delimiter", metavar="C", help="Between the cells of a table.")
 @click.option(
     "--columns",
@@ -186,7 +192,7 @@ def _progress(hidden: bool) -> Iterator[Progress]:
         "execute": "executing under physics",
     }
     columns = (SpinnerColumn(), TextColumn("{task.description:<42}"), BarColumn(), TimeElapsedColumn())
-    with Bar(*columns, console=Console(stderr=True), transient=True, disable=hidden) as bar:
+    with Bar(*columns, console=Console(stderr=True), transient=True, disable=hidden or not sys.stderr.isatty()) as bar:
         task = bar.add_task(titles[STAGES[0]], total=len(STAGES))
 
         def tell(stage: str, done: float) -> None:
@@ -201,19 +207,36 @@ def _print(run: Imitation, out: Path) -> None:
 
     console = Console(highlight=False)
     for line in run.recording.history:
-        console.print(f"[dim]{line}[/dim]", soft_wrap=True, markup=True)
+        console.print(line, style="dim", soft_wrap=True, markup=False)
     console.print(
         f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, "
         f"{run.slowdown:.2f} x the recorded duration"
     )
     console.print(_errors_table(run, Table))
     console.print(_checks_table(run, Table))
-    verdict = "[bold green]verified[/]" if run.ok else "[bold red]not verified[/]"
     console.print(
-        f"{verdict}: {run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}.",
-        soft_wrap=True,
+        "verified" if run.ok else "not verified", style="bold green" if run.ok else "bold red", markup=False, end=": "
     )
-    console.print(f"written to {out}/", soft_wrap=True)
+    console.print(_reason(run), soft_wrap=True, markup=False)
+    console.print(f"written to {out}/", soft_wrap=True, markup=False)
+
+
+_ADVICE = {
+    "self_collision": "The arm touches itself: move the path away from its base, or let it be placed.",
+    "ik_position_residual": "The path leaves what the arm can reach: let it be placed, or crop it.",
+    "reproduction_position_rmse": "The recording is noisy or fast for its rate: --low-pass, --start and --end help.",
+}
+
+
+def _reason(run: Imitation) -> str:
+    """What was verified, or which checks failed and what to do about the likely cause."""
+    failed = {check.name: check for check in run.checks if not check.ok}
+    if not failed:
+        return f"{run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}."
+    first = next((name for name in _ADVICE if name in failed), next(iter(failed)))
+    names = [first, *(name for name in failed if name != first)]
+    numbers = ", ".join(f"{n} {failed[n].value:.3g} (limit {failed[n].limit:.3g} {failed[n].unit})" for n in names)
+    return f"{len(failed)} of {len(run.checks)} checks failed: {numbers}. {_ADVICE.get(first, '')}".rstrip()
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:
@@ -239,11 +262,15 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
 
 
 def _checks_table(run: Imitation, table_type: type) -> Any:
+    from rich.markup import escape
+
     table = table_type(title="checks", title_justify="left")
     for title in ("", "check", "value", "limit", "unit", "where"):
-        table.add_column(title, justify="right" if title in ("value", "limit") else "left")
+        table.add_column(title, justify="right" if title in ("value", "limit") else "left", no_wrap=title == "check")
     for check in run.checks:
         where = f"{check.time:.2f} s " if check.time is not None else ""
         mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
-        table.add_row(mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, where + check.detail)
+        table.add_row(
+            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, escape(where + check.detail)
+        )
     return table

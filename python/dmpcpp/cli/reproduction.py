@@ -58,7 +58,7 @@ def _progress(hidden: bool) -> Iterator[Callable[[float], None]]:
     from rich.console import Console
     from rich.progress import Progress
 
-    with Progress(console=Console(stderr=True), transient=True, disable=hidden) as bar:
+    with Progress(console=Console(stderr=True), transient=True, disable=hidden or not sys.stderr.isatty()) as bar:
         task = bar.add_task("learning random motions", total=1.0)
         yield lambda done: bar.update(task, completed=done)
 
@@ -77,7 +77,8 @@ def _print(run: Reproduction, out: Path) -> None:
         mark = "[green]ok[/]  " if check.ok else "[bold red]FAIL[/]"
         console.print(f"{mark} {check.name} {check.value:.2g} <= {check.limit:g}  {check.detail}", soft_wrap=True)
     verdict = "[bold green]reproduced[/]" if run.ok else "[bold red]not reproduced[/]"
-    console.print(f"{verdict}; written to {out}/", soft_wrap=True)
+    console.print(verdict, end="; ")
+    console.print(f"written to {out}/", soft_wrap=True, markup=False)
 
 
 def _table(title: str, *columns: str) -> Table:
