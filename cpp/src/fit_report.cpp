@@ -121,6 +121,19 @@ double excess(const PoseDmp&, const VectorXd& rmse, const Tolerance& tolerance) 
   return std::max(rmse.head(3).norm() / tolerance.position, rmse.tail(3).norm() / tolerance.angle);
 }
 
+/// goal - start and the range covered, axis by axis.
+struct Way {
+  VectorXd displacement;
+  VectorXd amplitude;
+};
+Way way_of(const Dmp& dmp) { return {dmp.goal() - dmp.start(), dmp.parameters().amplitude}; }
+Way way_of(const OrientationDmp& dmp) { return {dmp.parameters().start_error, dmp.parameters().amplitude}; }
+Way way_of(const PoseDmp& dmp) {
+  Way way{VectorXd(6), dmp.parameters().amplitude};
+  way.displacement << (dmp.goal() - dmp.start()).topRightCorner<3, 1>(), dmp.parameters().start_error;
+  return way;
+}
+
 // What they share.
 
 template <class Model, class Demonstrations>
@@ -147,6 +160,19 @@ int suggested(const Model& model, const Demonstrations& demonstrations, const To
     if (excess(tried, rmse_of(tried, demonstrations), tolerance) <= 1.0) return count;
   }
   return 0;
+}
+
+/// A motion that ends near its start can hardly be scaled by (goal - start): a new goal multiplies it.
+template <class Model>
+void warn_of_scaling(FitReport& report, const Model& model) {
+  if (model.options().scaling != Scaling::per_axis) return;
+  const Way way = way_of(model);
+  for (Index d = 0; d < way.amplitude.size(); ++d)
+    if (std::abs(way.displacement[d]) < 1e-3 * way.amplitude[d])
+      report.warnings.push_back(
+          "scaling: axis " + std::to_string(d) + " ends " + number(way.displacement[d]) +
+          " from its start and covers " + number(way.amplitude[d]) +
+          ": a new goal multiplies it by the ratio. Use Scaling::none or Scaling::per_axis_relative.");
 }
 
 template <class Demonstrations>
@@ -189,6 +215,7 @@ FitReport assessed(const Model& model, const Demonstrations& demonstrations, con
   }
   report.condition = regression_condition(model.options());
   report.suggested_basis_count = suggested(model, demonstrations, tolerance);
+  warn_of_scaling(report, model);
   warn(report, demonstrations, model.options(), excess(model, report.rmse, tolerance));
   return report;
 }

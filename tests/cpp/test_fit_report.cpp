@@ -109,6 +109,32 @@ TEST_CASE("the condition tells how the kernels overlap") {
   CHECK(global > 1e3 * local);
 }
 
+TEST_CASE(
+    "a motion that ends near its start is learned under (goal - start) scaling with a warning, at its start "
+    "not at all") {
+  const Eigen::VectorXd t = grid(200, 1.0);
+  DmpOptions options;
+  options.scaling = Scaling::per_axis;
+  const auto loop = [&](double gap) {
+    return Demonstration(t, RowMatrix((2 * M_PI * t).array().sin() + gap * t.array()));
+  };
+  const FitReport near = assess(Dmp::fit(loop(1e-4), options), {loop(1e-4)});
+  CHECK(near.warnings.back().find("scaling: axis 0") == 0);
+  CHECK(assess(Dmp::fit(loop(.5), options), {loop(.5)}).warnings.empty());
+  CHECK_THROWS_AS(Dmp::fit(loop(0.0), options), InvalidArgument);
+}
+
+TEST_CASE("a report sees scaled demonstrations as a run started at them does") {
+  const Demonstration one = reach(300, 1.0);
+  const Demonstration three(one.time(), RowMatrix(3.0 * one.position()));
+  for (const Scaling scaling : {Scaling::per_axis, Scaling::per_axis_relative, Scaling::rotation_dilation}) {
+    DmpOptions options;
+    options.scaling = scaling;
+    const std::vector<Demonstration> both{one, three};
+    CHECK(assess(Dmp::fit(both, options), both).rmse.maxCoeff() < 1e-4);
+  }
+}
+
 TEST_CASE("nothing to hold a model against is refused") {
   const Dmp dmp = Dmp::fit(reach(100, 1.0));
   CHECK_THROWS_AS(assess(dmp, {}), InvalidArgument);

@@ -115,7 +115,7 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
 /// (g - y0) scales only an axis that ends elsewhere than it starts, measured by the range it covers.
 void require_displacement(const VectorXd& displacement, const VectorXd& amplitude) {
   for (Index d = 0; d < displacement.size(); ++d)
-    if (amplitude[d] > 0.0 && std::abs(displacement[d]) < 1e-3 * amplitude[d])
+    if (amplitude[d] > 0.0 && std::abs(displacement[d]) < 1e-9 * amplitude[d])
       throw InvalidArgument("scaling: axis " + std::to_string(d) + " of the demonstration ends " +
                             number(displacement[d]) + " from its start and covers " + number(amplitude[d]) +
                             ", so (goal - start) can not scale its forcing term. Use Scaling::none or "
