@@ -112,18 +112,20 @@ void PositionMotion::advance_euler(double step, const double* end) noexcept {
 
 bool PositionMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
   const double* force = scaled(forcing, 2);
-  bool finite = true;
+  const double stiffness = spring_.stiffness();
+  const double alpha = spring_.alpha();
+  const double squared = speed * speed;
+  double sum = 0.0;  // of everything times 0: it is 0 if all are finite, not a number otherwise
   for (Index d = 0; d < y_.size(); ++d) {
-    const double zs = spring_.stiffness() * (goal_[d] - y_[d]) - spring_.alpha() * z_[d] + force[d];
+    const double zs = stiffness * (goal_[d] - y_[d]) - alpha * z_[d] + force[d];
     next_velocity_[d] = z_[d] * speed;
-    next_acceleration_[d] = zs * speed * speed + z_[d] * speed_rate;
-    finite = finite && std::isfinite(y_[d]) && std::isfinite(z_[d]) && std::isfinite(next_velocity_[d]) &&
-             std::isfinite(next_acceleration_[d]);
+    next_acceleration_[d] = zs * squared + z_[d] * speed_rate;
+    sum += 0.0 * (y_[d] + next_velocity_[d] + next_acceleration_[d]);
   }
-  if (!finite) return false;
+  if (!(sum == 0.0)) return false;
   position_ = y_;
-  velocity_ = next_velocity_;
-  acceleration_ = next_acceleration_;
+  velocity_.swap(next_velocity_);
+  acceleration_.swap(next_acceleration_);
   return true;
 }
 
