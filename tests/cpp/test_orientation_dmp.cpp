@@ -91,6 +91,29 @@ TEST_CASE("a rotation of the body frame from the right goes through unchanged") 
   for (std::size_t k = 0; k < a.size(); ++k) CHECK(so3::distance(a[k] * q, b[k]) < 1e-11);
 }
 
+TEST_CASE(
+    "turning the world from the left goes through the spring alone, and not through an unscaled forcing "
+    "term") {
+  const Matrix3d q = so3::exp({.4, -1.0, .7});
+  const auto difference = [&](const OrientationDmp& dmp) {
+    OrientationRun here(dmp);
+    OrientationRun there(dmp);
+    there.start_from(q * dmp.start(), q * dmp.parameters().start_velocity);
+    there.set_goal(q * dmp.goal());
+    double most = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      here.step(.01);
+      there.step(.01);
+      most = std::max(most, so3::distance(q * here.rotation(), there.rotation()));
+    }
+    return most;
+  };
+  OrientationDmpParameters p = OrientationDmp::fit(rotation(300, 2.0, 3.0)).parameters();
+  CHECK(difference(OrientationDmp(p)) > 1e-2);
+  p.weights.setZero();
+  CHECK(difference(OrientationDmp(p)) < 1e-12);
+}
+
 TEST_CASE("a run follows the rollout; angular velocity and acceleration are derivatives in the world frame") {
   for (const auto form : {OrientationForm::ude, OrientationForm::log_linear}) {
     DmpOptions options;
