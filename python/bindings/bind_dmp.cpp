@@ -54,28 +54,8 @@ void bind_dmp(py::module_& m) {
       .def_property_readonly(
           "start", [](const Dmp& d) { return from_vector(d.start()); }, "(d,)")
       .def_property_readonly(
-          "goal", [](const Dmp& d) { return from_vector(d.goal()); }, "(d,)")
-      .def(
-          "rollout",
-          [](const Dmp& d, const std::optional<Array>& goal, std::optional<double> duration, double dt) {
-            const auto target = optional_vector(goal, "goal");
-            const py::gil_scoped_release release;
-            return d.rollout(target, duration, dt);
-          },
-          py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
-          "The motion from the demonstrated start to `goal` (d,) within `duration` s, at 0, dt, ... up to "
-          "the duration.")
-      .def(
-          "rollout_at",
-          [](const Dmp& d, const Array& times, const std::optional<Array>& goal,
-             std::optional<double> duration) {
-            const auto target = optional_vector(goal, "goal");
-            const Eigen::VectorXd moments = to_vector(times, "times");
-            const py::gil_scoped_release release;
-            return d.rollout_at(moments, target, duration);
-          },
-          py::arg("times"), py::arg("goal") = py::none(), py::arg("duration") = py::none(),
-          "The same at times (T,) in s, increasing from 0 or later.");
+          "goal", [](const Dmp& d) { return from_vector(d.goal()); }, "(d,)");
+  def_rollout(dmp, &optional_vector);
   bind_run(m);
 }
 

@@ -54,29 +54,8 @@ void bind_orientation_dmp(py::module_& m) {
   dmp.def_property_readonly(
          "start", [](const OrientationDmp& d) { return from_rotation(d.start()); }, "(3, 3)")
       .def_property_readonly(
-          "goal", [](const OrientationDmp& d) { return from_rotation(d.goal()); }, "(3, 3)")
-      .def(
-          "rollout",
-          [](const OrientationDmp& d, const std::optional<Array>& goal, std::optional<double> duration,
-             double dt) {
-            const auto target = optional_rotation(goal, "goal");
-            const py::gil_scoped_release release;
-            return d.rollout(target, duration, dt);
-          },
-          py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
-          "The motion from the demonstrated start to `goal` (3, 3) within `duration` s, at 0, dt, ... up to "
-          "the duration.")
-      .def(
-          "rollout_at",
-          [](const OrientationDmp& d, const Array& times, const std::optional<Array>& goal,
-             std::optional<double> duration) {
-            const auto target = optional_rotation(goal, "goal");
-            const Eigen::VectorXd moments = to_vector(times, "times");
-            const py::gil_scoped_release release;
-            return d.rollout_at(moments, target, duration);
-          },
-          py::arg("times"), py::arg("goal") = py::none(), py::arg("duration") = py::none(),
-          "The same at times (T,) in s, increasing from 0 or later.");
+          "goal", [](const OrientationDmp& d) { return from_rotation(d.goal()); }, "(3, 3)");
+  def_rollout(dmp, &optional_rotation);
   bind_run(m);
 }
 

@@ -57,28 +57,8 @@ void bind_pose_dmp(py::module_& m) {
   dmp.def_property_readonly(
          "start", [](const PoseDmp& d) { return from_pose(d.start()); }, "(4, 4)")
       .def_property_readonly(
-          "goal", [](const PoseDmp& d) { return from_pose(d.goal()); }, "(4, 4)")
-      .def(
-          "rollout",
-          [](const PoseDmp& d, const std::optional<Array>& goal, std::optional<double> duration, double dt) {
-            const auto target = optional_pose(goal, "goal");
-            const py::gil_scoped_release release;
-            return d.rollout(target, duration, dt);
-          },
-          py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
-          "The motion from the demonstrated start to `goal` (4, 4) within `duration` s, at 0, dt, ... up to "
-          "the duration.")
-      .def(
-          "rollout_at",
-          [](const PoseDmp& d, const Array& times, const std::optional<Array>& goal,
-             std::optional<double> duration) {
-            const auto target = optional_pose(goal, "goal");
-            const Eigen::VectorXd moments = to_vector(times, "times");
-            const py::gil_scoped_release release;
-            return d.rollout_at(moments, target, duration);
-          },
-          py::arg("times"), py::arg("goal") = py::none(), py::arg("duration") = py::none(),
-          "The same at times (T,) in s, increasing from 0 or later.");
+          "goal", [](const PoseDmp& d) { return from_pose(d.goal()); }, "(4, 4)");
+  def_rollout(dmp, &optional_pose);
   bind_run(m);
 }
 

@@ -118,4 +118,38 @@ void def_model(py::class_<Dmp>& model) {
                       [](const std::string& text) { return std::get<Dmp>(from_json(text)); }));
 }
 
+/// rollout and rollout_at; `to_goal(array or None, name)` reads a goal of this kind of model.
+template <class Dmp, class Goal>
+void def_rollout(py::class_<Dmp>& model,
+                 std::optional<Goal> (*to_goal)(const std::optional<Array>&, const char*)) {
+  model
+      .def(
+          "rollout",
+          [to_goal](const Dmp& d, const std::optional<Array>& goal, std::optional<double> duration,
+                    double dt) {
+            const auto target = to_goal(goal, "goal");
+            const py::gil_scoped_release release;
+            return d.rollout(target, duration, dt);
+          },
+          py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
+          "The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated "
+          "one unless "
+          "given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. "
+          "Raises "
+          "InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 "
+          "samples, or a "
+          "motion that does not stay finite.")
+      .def(
+          "rollout_at",
+          [to_goal](const Dmp& d, const Array& times, const std::optional<Array>& goal,
+                    std::optional<double> duration) {
+            const auto target = to_goal(goal, "goal");
+            const Eigen::VectorXd moments = to_vector(times, "times");
+            const py::gil_scoped_release release;
+            return d.rollout_at(moments, target, duration);
+          },
+          py::arg("times"), py::arg("goal") = py::none(), py::arg("duration") = py::none(),
+          "The same at times (T,) in s, increasing from 0 or later.");
+}
+
 }  // namespace dmp::python

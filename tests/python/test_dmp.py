@@ -245,7 +245,7 @@ def test_recorded_poses_are_reproduced(recorded):
     ],
     ids=str,
 )
-def test_every_option_changes_what_it_names_and_still_reproduces(fields):
+def test_a_model_keeps_its_options_through_a_file_and_still_reproduces(fields):
     demonstration = poses()
     model = PoseDmp.fit(demonstration, **fields)
     for name, value in fields.items():

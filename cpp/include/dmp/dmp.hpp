@@ -88,7 +88,8 @@ class DMP_EXPORT Run {
   /// The goal (d) to go to from now on, approached through DmpOptions::goal_filter; before the
   /// first step it counts at once.
   Status set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept DMP_REALTIME;
-  /// The duration (s) of the whole motion from now on; the path stays the same. DmpOptions::tempo_filter.
+  /// The duration (s) of the whole motion from now on; the path stays the same. Before the
+  /// first step at once, later through DmpOptions::tempo_filter.
   Status set_duration(double duration) noexcept DMP_REALTIME;
   /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
   Status set_tracking_error(double error) noexcept DMP_REALTIME;
@@ -99,7 +100,7 @@ class DMP_EXPORT Run {
   /// Begins anew at position (d) with velocity (d, per s), at the goal and duration that were set last.
   Status start_from(const Eigen::Ref<const Eigen::VectorXd>& position,
                     const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept DMP_REALTIME;
-  /// Begins anew at the demonstrated start, with the goal and duration that were set last.
+  /// Begins anew at the demonstrated start, with the goal and duration that were set last. A pause goes on.
   void reset() noexcept DMP_REALTIME;
 
   const Eigen::VectorXd& position() const noexcept DMP_REALTIME;      ///< (d)

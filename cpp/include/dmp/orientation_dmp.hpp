@@ -35,7 +35,7 @@ struct OrientationDmpParameters {
 
 /// A dynamic movement primitive for orientations on SO(3). Immutable: share it between threads.
 ///
-///   UDE form (default):  tau eta_d = alpha (beta Log(Rg R^T) - eta) + S f(x),   tau Rd = [eta]x R
+///   UDE form:            tau eta_d = alpha (beta Log(Rg R^T) - eta) + S f(x),   tau Rd = [eta]x R
 ///   log-linear form:     tau z_d = alpha (-beta p - z) + S f(x),  tau p_d = z,  R = Exp(p) Rg
 ///
 /// (Ude et al. 2014, ICRA, with omega in the world frame; Koutras and Doulgeri 2020 for the second. The

@@ -16,8 +16,8 @@ namespace dmp {
 class DMP_EXPORT Phase {
  public:
   /// `filter` is the time constant in s of changes of tempo, 0 for jumps; `stop_gain` is k. Throws
-  /// InvalidArgument unless duration [s] and alpha_x are finite and positive, filter and stop_gain finite and
-  /// not negative.
+  /// InvalidArgument unless duration is 1e-9 to 1e15 s, alpha_x finite and positive, filter and stop_gain
+  /// finite and not negative.
   Phase(double duration, double alpha_x, double filter = 0.0, double stop_gain = 0.0);
 
   double s() const noexcept DMP_REALTIME { return s_; }

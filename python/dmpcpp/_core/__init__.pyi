@@ -507,7 +507,7 @@ class Dmp:
         """
     def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Trajectory:
         """
-        The motion from the demonstrated start to `goal` (d,) within `duration` s, at 0, dt, ... up to the duration.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
         """
     def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Trajectory:
         """
@@ -650,7 +650,7 @@ class OrientationDmp:
         """
     def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> OrientationTrajectory:
         """
-        The motion from the demonstrated start to `goal` (3, 3) within `duration` s, at 0, dt, ... up to the duration.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
         """
     def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> OrientationTrajectory:
         """
@@ -790,7 +790,7 @@ class PoseDmp:
         """
     def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseTrajectory:
         """
-        The motion from the demonstrated start to `goal` (4, 4) within `duration` s, at 0, dt, ... up to the duration.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
         """
     def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseTrajectory:
         """
