@@ -6,13 +6,13 @@
 #include <limits>
 #include <string>
 
+#include "detail/gaussian_place.hpp"
+
 namespace dmp {
 namespace {
 
 // A kernel that weighs less than this beside the largest adds nothing to a sum of doubles.
 constexpr double kNegligible = 2e-17;
-// exp of less would be denormal, which costs a hundred times more than a normal number.
-constexpr double kSmallestExponent = -700.0;
 
 void require_positive(double value, const char* name) {
   if (!(std::isfinite(value) && value > 0.0))
@@ -66,54 +66,44 @@ Eigen::VectorXd GaussianBasis::centers() const {
   return (-alpha_x_ * Eigen::VectorXd::LinSpaced(count_, 0.0, 1.0)).array().exp();
 }
 
-int GaussianBasis::nearest(double s) const noexcept {
-  const double u = s * (count_ - 1);
-  return static_cast<int>(std::clamp(u + 0.5, 0.0, static_cast<double>(count_ - 1)));
-}
-
 GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi) const noexcept {
-  const int middle = nearest(s);
-  const double offset = s * (count_ - 1) - middle;
-  const Window window{std::max(middle - reach_, 0),
-                      std::min(middle + reach_, count_ - 1) - std::max(middle - reach_, 0) + 1};
-  double* const at_middle = psi + (middle - window.first);
-  *at_middle = 1.0;
-  // exp(-o (r - k)^2) = exp(-o r^2) exp(2 o r)^k exp(-o k^2): the first factor is common to all.
-  const double exponent = std::clamp(2.0 * overlap_ * offset, kSmallestExponent, -kSmallestExponent);
-  const double up = std::exp(exponent);
-  const double down = 1.0 / up;
+  const Place at = place(s);
+  double* const middle = psi + at.below;
+  *middle = 1.0;
   double power = 1.0;
-  const int above = window.first + window.count - 1 - middle;
-  for (int k = 1; k <= above; ++k) at_middle[k] = (power *= up) * table_[static_cast<std::size_t>(k)];
+  for (int k = 1; k <= at.above; ++k) middle[k] = (power *= at.up) * table_[static_cast<std::size_t>(k)];
+  const double down = 1.0 / at.up;
   power = 1.0;
-  for (int k = 1; k <= middle - window.first; ++k)
-    at_middle[-k] = (power *= down) * table_[static_cast<std::size_t>(k)];
-  return window;
+  for (int k = 1; k <= at.below; ++k) middle[-k] = (power *= down) * table_[static_cast<std::size_t>(k)];
+  return {at.middle - at.below, at.below + at.above + 1, -overlap_ * at.offset * at.offset};
 }
 
-GaussianBasis::Window GaussianBasis::source_window(double s, double* psi, bool proportional) const noexcept {
+GaussianBasis::Window GaussianBasis::source_window(double s, double* psi) const noexcept {
   const double x = std::exp(-alpha_x_ * s);
-  double largest = proportional ? -std::numeric_limits<double>::max() : 0.0;
+  double largest = -std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < center_.size(); ++i) {
     psi[i] = -width_[i] * (x - center_[i]) * (x - center_[i]);
-    if (proportional) largest = std::max(largest, psi[i]);
+    largest = std::max(largest, psi[i]);
   }
   for (std::size_t i = 0; i < center_.size(); ++i)
     psi[i] = std::exp(std::max(psi[i] - largest, kSmallestExponent));
-  return {0, count_};
+  return {0, count_, largest};
 }
 
 GaussianBasis::Window GaussianBasis::proportional(double s, double* psi) const noexcept {
-  return overlap_ > 0.0 ? equal_in_time_window(s, psi) : source_window(s, psi, true);
+  return overlap_ > 0.0 ? equal_in_time_window(s, psi) : source_window(s, psi);
 }
 
 GaussianBasis::Window GaussianBasis::activations(double s, double* psi) const noexcept {
-  if (overlap_ == 0.0) return source_window(s, psi, false);
-  const Window window = equal_in_time_window(s, psi);
-  const double offset = s * (count_ - 1) - nearest(s);
-  const double factor = std::exp(std::max(-overlap_ * offset * offset, kSmallestExponent));
+  Window window = proportional(s, psi);
+  const double factor = window.factor();
   for (int k = 0; k < window.count; ++k) psi[k] *= factor;
+  window.exponent = 0.0;
   return window;
+}
+
+double GaussianBasis::Window::factor() const noexcept {
+  return std::exp(std::max(exponent, kSmallestExponent));
 }
 
 RowMatrix GaussianBasis::activations(const Eigen::VectorXd& s, bool normalised) const {

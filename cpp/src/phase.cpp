@@ -73,8 +73,10 @@ double Phase::increment(double dt) const noexcept {
   return dt * target_speed_ + filter_ * (c * gone + d * (filter_ * gone - dt * (1.0 - gone)));
 }
 
-void Phase::advance(double dt) noexcept {
-  s_ += increment(dt);
+void Phase::advance(double dt) noexcept { advance(dt, increment(dt)); }
+
+void Phase::advance(double dt, double increment) noexcept {
+  s_ += increment;
   time_ += dt;
   if (settled()) return;
   const double c = speed_ - target_speed_;

@@ -14,9 +14,12 @@ set(DMP_core_SOURCES
   so3.cpp
   spline.cpp
   spread.cpp
+  detail/collocation.cpp
+  detail/forcing_fit.cpp
   detail/forcing_scale.cpp
   detail/learning.cpp
   detail/model_json.cpp
+  detail/normal_equations.cpp
   detail/orientation_motion.cpp
   detail/position_motion.cpp
   detail/smoothing_fit.cpp

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "detail/collocation.hpp"
 #include "detail/local_basis.hpp"
 #include "detail/smoothing_fit.hpp"
 
@@ -16,39 +17,15 @@ namespace {
 using detail::LocalBasis;
 using Eigen::Index;
 
-/// Solves the banded system in place by elimination without pivoting, which is stable for a B-spline
-/// collocation matrix (totally positive: de Boor and Pinkus 1977). band(i, j - i + half) = A(i, j); b becomes
-/// the solution.
-void solve_banded(RowMatrix& band, RowMatrix& b, Index half) {
-  const Index n = band.rows();
-  const Index columns = b.cols();
-  const auto subtract = [columns](double factor, const double* from, double* row) {
-    for (Index c = 0; c < columns; ++c) row[c] -= factor * from[c];
-  };
-  for (Index i = 0; i < n; ++i) {
-    const Index last = std::min(i + half, n - 1);
-    for (Index r = i + 1; r <= last; ++r) {
-      const double below = band(r, i - r + half);
-      if (below == 0.0) continue;
-      const double factor = below / band(i, half);
-      for (Index c = i; c <= last; ++c) band(r, c - r + half) -= factor * band(i, c - i + half);
-      subtract(factor, b.row(i).data(), b.row(r).data());
-    }
-  }
-  for (Index i = n - 1; i >= 0; --i) {
-    double* const row = b.row(i).data();
-    for (Index c = i + 1; c <= std::min(i + half, n - 1); ++c)
-      subtract(band(i, c - i + half), b.row(c).data(), row);
-    for (Index c = 0; c < columns; ++c) row[c] /= band(i, half);
-  }
-}
-
-/// row_c = sum_j basis_j coefficient_jc, rows of coefficients one behind the other.
-void blend(const std::array<double, 6>& basis, int degree, const double* coefficient, Index dims,
+/// row_c = sum_j basis_j coefficient_jc, rows of coefficients one behind the other; the number of columns is
+/// known when this is compiled, unless 0.
+template <int Columns>
+void blend(const std::array<double, 6>& basis, int degree, const double* coefficient, Index given,
            double* row) {
-  for (Index c = 0; c < dims; ++c) {
+  const Index columns = Columns > 0 ? Columns : given;
+  for (Index c = 0; c < columns; ++c) {
     double sum = basis[0] * coefficient[c];
-    for (int j = 1; j <= degree; ++j) sum += basis[j] * coefficient[j * dims + c];
+    for (int j = 1; j <= degree; ++j) sum += basis[j] * coefficient[j * columns + c];
     row[c] = sum;
   }
 }
@@ -63,37 +40,39 @@ void require(const Eigen::VectorXd& times, const RowMatrix& values) {
                             "]: not after the one before, expected increasing times.");
 }
 
-std::vector<double> not_a_knot(const Eigen::VectorXd& times, int degree) {
-  const Index n = times.size();
-  const Index skipped = (degree + 1) / 2;  // samples at either end that are no knots
-  std::vector<double> knots(degree + 1, times[0]);
-  if (n > degree + 1)
-    for (Index i = skipped; i < n - skipped; ++i) knots.push_back(times[i]);
-  knots.insert(knots.end(), degree + 1, times[n - 1]);
-  return knots;
-}
-
 }  // namespace
 
-Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values)
-    : degree_(static_cast<int>(std::min<Index>(kDegree, times.size() - 1))) {
+Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values) {
   require(times, values);
-  knots_ = not_a_knot(times, degree_);
-  interpolate(times, values);
+  grid_ = std::make_shared<const detail::Collocation>(times);
+  knots_ = {grid_, &grid_->knots()};
+  coefficients_[0] = values;
+  grid_->solve(coefficients_[0]);
   differentiate();
 }
 
-Spline::Spline(std::vector<double> knots, RowMatrix coefficients)
-    : degree_(kDegree), knots_(std::move(knots)) {
+Spline::Spline(std::shared_ptr<const detail::Knots> knots, RowMatrix coefficients)
+    : knots_(std::move(knots)) {
   coefficients_[0] = std::move(coefficients);
   differentiate();
+}
+
+Spline Spline::through(const RowMatrix& values) const {
+  if (!grid_ || values.rows() != knots_->count())
+    throw InvalidArgument("values: " + std::to_string(values.rows()) +
+                          " rows, expected one for each sample of an interpolating spline.");
+  RowMatrix coefficients = values;
+  grid_->solve(coefficients);
+  Spline spline(knots_, std::move(coefficients));
+  spline.grid_ = grid_;
+  return spline;
 }
 
 Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report) {
   if (report) *report = {Eigen::VectorXd::Zero(values.cols()), Eigen::VectorXd::Zero(values.cols())};
   if (times.size() < 10) return {times, values};
   detail::SmoothingFit fit(times);
-  Spline spline(fit.knots(), fit.solve(values));
+  Spline spline(std::make_shared<const detail::Knots>(fit.knots()), fit.solve(values));
   if (report) {
     const RowMatrix residual = values - spline.sample(times).value;
     report->removed = (residual.colwise().squaredNorm() / static_cast<double>(times.size())).cwiseSqrt();
@@ -102,31 +81,29 @@ Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, 
   return spline;
 }
 
-Index Spline::interval(double time) const noexcept { return detail::interval_of(knots_, degree_, time); }
-
-void Spline::interpolate(const Eigen::VectorXd& times, const RowMatrix& values) {
-  const Index n = times.size();
-  const Index half = degree_;
-  RowMatrix band = RowMatrix::Zero(n, 2 * half + 1);
-  for (Index i = 0; i < n; ++i) {
-    const Index at = interval(times[i]);
-    const LocalBasis basis(knots_.data(), at, degree_, times[i]);
-    for (Index j = 0; j <= degree_; ++j) band(i, at - degree_ + j - i + half) = basis.values[0][j];
-  }
-  coefficients_[0] = values;
-  solve_banded(band, coefficients_[0], half);
-}
-
 void Spline::differentiate() {
+  const detail::Knots& knots = *knots_;
   for (int d = 1; d <= 2; ++d) {
     const RowMatrix& upper = coefficients_[d - 1];
-    const int degree = degree_ - d + 1;
+    const int degree = knots.degree() - d + 1;
     RowMatrix lower = RowMatrix::Zero(std::max<Index>(upper.rows() - 1, 1), upper.cols());
-    for (Index i = 0; degree > 0 && i + 1 < upper.rows(); ++i) {
-      const double span = knots_[i + degree_ + 1] - knots_[i + d];
-      lower.row(i) = degree / span * (upper.row(i + 1) - upper.row(i));
-    }
-    coefficients_[d] = lower;
+    for (Index i = 0; degree > 0 && i + 1 < upper.rows(); ++i)
+      lower.row(i) = degree * knots.inverse_span(degree, i + d) * (upper.row(i + 1) - upper.row(i));
+    coefficients_[d] = std::move(lower);
+  }
+}
+
+template <int Columns>
+void Spline::sample(const Eigen::VectorXd& times, const std::array<double*, 3>& out) const {
+  const int degree = knots_->degree();
+  const Index columns = dimension();
+  Index at = degree;
+  for (Index k = 0; k < times.size(); ++k) {
+    at = knots_->interval(times[k], at);
+    const LocalBasis basis(*knots_, at, times[k]);
+    for (int d = 0; d <= std::min(2, degree); ++d)
+      blend<Columns>(basis.values[d], degree - d, coefficients_[d].row(at - degree).data(), columns,
+                     out[d] + k * columns);
   }
 }
 
@@ -134,14 +111,17 @@ Spline::Samples Spline::sample(const Eigen::VectorXd& times) const {
   const Index n = times.size();
   const Index dims = dimension();
   Samples samples{RowMatrix(n, dims), RowMatrix(n, dims), RowMatrix(n, dims)};
-  std::array<RowMatrix*, 3> out{&samples.value, &samples.first, &samples.second};
-  for (int d = degree_ + 1; d <= 2; ++d) out[d]->setZero();
-  for (Index k = 0; k < n; ++k) {
-    const Index at = interval(times[k]);
-    const LocalBasis basis(knots_.data(), at, degree_, times[k]);
-    for (int d = 0; d <= std::min(2, degree_); ++d)
-      blend(basis.values[d], degree_ - d, coefficients_[d].row(at - degree_).data(), dims,
-            out[d]->row(k).data());
+  const std::array<double*, 3> out{samples.value.data(), samples.first.data(), samples.second.data()};
+  for (int d = knots_->degree() + 1; d <= 2; ++d) std::fill_n(out[d], n * dims, 0.0);
+  switch (dims) {
+    case 3:
+      sample<3>(times, out);
+      break;
+    case 4:
+      sample<4>(times, out);
+      break;
+    default:
+      sample<0>(times, out);
   }
   return samples;
 }

@@ -18,10 +18,12 @@ namespace dmp {
 /// * Source: psi_i = exp(-h_i (x - c_i)^2), h_i = N^1.5 / (alpha_x c_i), Gaussians in x (DeWolf's rule).
 class DMP_EXPORT GaussianBasis {
  public:
-  /// Kernels first .. first + count - 1; the others are zero.
+  /// Kernels first .. first + count - 1; the others are zero. They are exp(exponent) times what is given.
   struct Window {
     int first;
     int count;
+    double exponent;
+    double factor() const noexcept;  ///< exp(exponent), never denormal
   };
 
   /// Throws InvalidArgument unless count >= 1, alpha_x > 0 and overlap > 0. Neighbours cross at exp(-overlap
@@ -47,10 +49,13 @@ class DMP_EXPORT GaussianBasis {
   static void require_phases(const Eigen::VectorXd& s);
 
  private:
+  friend class ForcingTerm;
+  struct Place;
+
   GaussianBasis(int count, double alpha_x);
-  int nearest(double s) const noexcept;
+  Place place(double s) const noexcept;
   Window equal_in_time_window(double s, double* psi) const noexcept;
-  Window source_window(double s, double* psi, bool proportional) const noexcept;
+  Window source_window(double s, double* psi) const noexcept;
 
   int count_;
   double alpha_x_;

@@ -30,6 +30,9 @@ class DMP_EXPORT ForcingTerm {
   RowMatrix evaluate(const Eigen::VectorXd& s) const;
 
  private:
+  template <int Columns>
+  void evaluate_equal_in_time(double s, double* f) const noexcept;
+
   GaussianBasis basis_;
   Eigen::Index dimension_;
   RowMatrix rows_;  // padded to an even number of columns, so that two of them go through one instruction

@@ -43,6 +43,8 @@ class DMP_EXPORT Phase {
   double increment(double dt) const noexcept DMP_REALTIME;
   /// Moves time, speed and s on by dt.
   void advance(double dt) noexcept DMP_REALTIME;
+  /// The same, with the increment(dt) at hand.
+  void advance(double dt, double increment) noexcept DMP_REALTIME;
   /// Back to the start, at the duration that was set last and the speed that goes with it; a pause goes on.
   void reset() noexcept DMP_REALTIME;
 

@@ -4,9 +4,15 @@
 #include <dmp/trajectory.hpp>
 
 #include <Eigen/Core>
-#include <vector>
+#include <array>
+#include <memory>
 
 namespace dmp {
+
+namespace detail {
+class Collocation;
+class Knots;
+}  // namespace detail
 
 /// What a smoothing spline took out of its samples.
 struct Smoothing {
@@ -28,6 +34,9 @@ class DMP_EXPORT Spline {
   /// is found in the data. With fewer than ten samples it is the interpolating one.
   static Spline smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report = nullptr);
 
+  /// The spline through other values (T x d) at the same times: what depends on the times alone is shared.
+  Spline through(const RowMatrix& values) const;
+
   Eigen::Index dimension() const noexcept { return coefficients_[0].cols(); }
 
   /// Value, first and second derivative at each time (extrapolated by the end polynomial), each (times x d).
@@ -39,17 +48,14 @@ class DMP_EXPORT Spline {
   Samples sample(const Eigen::VectorXd& times) const;
 
  private:
-  static constexpr int kDegree = 5;
-
-  Spline(std::vector<double> knots, RowMatrix coefficients);
-  Eigen::Index interval(double time) const noexcept;
-  void interpolate(const Eigen::VectorXd& times, const RowMatrix& values);
+  Spline(std::shared_ptr<const detail::Knots> knots, RowMatrix coefficients);
   void differentiate();
+  template <int Columns>
+  void sample(const Eigen::VectorXd& times, const std::array<double*, 3>& out) const;
 
-  int degree_;
-  std::vector<double> knots_;
-  RowMatrix
-      coefficients_[3];  // of the spline and its first two derivatives, on the knots of degree, degree-1, ..
+  std::shared_ptr<const detail::Collocation> grid_;  // of the interpolating ones
+  std::shared_ptr<const detail::Knots> knots_;
+  RowMatrix coefficients_[3];  // of the spline and its first two derivatives
 };
 
 }  // namespace dmp

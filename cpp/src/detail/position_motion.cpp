@@ -1,11 +1,24 @@
 #include "detail/position_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace dmp::detail {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Calls work(n) with n known when this is compiled for the three axes of space, so that loops unroll.
+template <class Work>
+void for_axes(Index axes, Work work) noexcept {
+  if (axes == 3) return work(std::integral_constant<Index, 3>{});
+  work(axes);
+}
+
+}  // namespace
 
 PositionMotion::PositionMotion(const DmpOptions& options, const VectorXd& start, const VectorXd& goal,
                                const VectorXd& z, const VectorXd& amplitude)
@@ -111,19 +124,24 @@ void PositionMotion::advance_euler(double step, const double* end) noexcept {
 }
 
 bool PositionMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
-  const double* force = scaled(forcing, 2);
+  const double* const force = scaled(forcing, 2);
   const double stiffness = spring_.stiffness();
   const double alpha = spring_.alpha();
   const double squared = speed * speed;
   double sum = 0.0;  // of everything times 0: it is 0 if all are finite, not a number otherwise
-  for (Index d = 0; d < y_.size(); ++d) {
-    const double zs = stiffness * (goal_[d] - y_[d]) - alpha * z_[d] + force[d];
-    next_velocity_[d] = z_[d] * speed;
-    next_acceleration_[d] = zs * squared + z_[d] * speed_rate;
-    sum += 0.0 * (y_[d] + next_velocity_[d] + next_acceleration_[d]);
-  }
+  for_axes(y_.size(), [&, y = y_.data(), z = z_.data(), goal = goal_.data(), velocity = next_velocity_.data(),
+                       acceleration = next_acceleration_.data()](auto axes) {
+    for (Index d = 0; d < axes; ++d) {
+      const double zd = z[d];
+      const double v = zd * speed;
+      const double a = (stiffness * (goal[d] - y[d]) - alpha * zd + force[d]) * squared + zd * speed_rate;
+      sum += 0.0 * (y[d] + v + a);
+      velocity[d] = v;
+      acceleration[d] = a;
+    }
+  });
   if (!(sum == 0.0)) return false;
-  position_ = y_;
+  std::copy_n(y_.data(), y_.size(), position_.data());
   velocity_.swap(next_velocity_);
   acceleration_.swap(next_acceleration_);
   return true;

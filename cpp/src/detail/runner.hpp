@@ -42,7 +42,7 @@ class Runner {
     const double way = phase_.increment(dt);
     if (!(dt >= 0.0) || !(way <= kFarthest)) return Status::invalid_input;
     advance(way);
-    phase_.advance(dt);
+    phase_.advance(dt, way);
     if (!publish()) return status_ = Status::not_finite;
     return status_ = phase_.s() >= 1.0 - kRounding ? Status::finished : Status::running;
   }

@@ -17,14 +17,14 @@ constexpr double kKnotsPerSecond = 40.0;
 constexpr Index kFewKnots = 200;
 
 /// A knot at every sample, or at every second, third, .. of them where there are many.
-std::vector<double> knots_at(const VectorXd& times, int degree) {
+Knots knots_at(const VectorXd& times, int degree) {
   const Index n = times.size();
   const double most = kFewKnots + kKnotsPerSecond * (times[n - 1] - times[0]);
   const Index every = std::max<Index>(1, static_cast<Index>(std::ceil(static_cast<double>(n) / most)));
   std::vector<double> knots(degree + 1, times[0]);
   for (Index k = every; k < n - every; k += every) knots.push_back(times[k]);
   knots.insert(knots.end(), degree + 1, times[n - 1]);
-  return knots;
+  return {std::move(knots), degree};
 }
 
 /// A = L D L^T of a symmetric band matrix, and what smoothing needs of it.
@@ -87,7 +87,7 @@ class BandCholesky {
 }  // namespace
 
 SmoothingFit::SmoothingFit(const VectorXd& times) : samples_(times.size()), knots_(knots_at(times, kDegree)) {
-  const Index count = static_cast<Index>(knots_.size()) - kDegree - 1;
+  const Index count = knots_.count();
   gram_ = Band::Zero(count, kDegree + 1);
   roughness_ = Band::Zero(count, kDegree + 1);
   add_samples(times);
@@ -95,9 +95,10 @@ SmoothingFit::SmoothingFit(const VectorXd& times) : samples_(times.size()), knot
 }
 
 void SmoothingFit::add_samples(const VectorXd& times) {
+  Index at = kDegree;
   for (Index k = 0; k < samples_; ++k) {
-    const Index at = interval_of(knots_, kDegree, times[k]);
-    const Local row = LocalBasis(knots_.data(), at, kDegree, times[k]).values[0];
+    at = knots_.interval(times[k], at);
+    const Local row = LocalBasis(knots_, at, times[k]).values[0];
     for (Index a = 0; a <= kDegree; ++a)
       for (Index b = a; b <= kDegree; ++b) gram_(at - kDegree + a, b - a) += row[a] * row[b];
     interval_.push_back(at);
@@ -106,7 +107,7 @@ void SmoothingFit::add_samples(const VectorXd& times) {
 }
 
 SmoothingFit::Local SmoothingFit::third_derivatives(Index interval, double time) const {
-  const Local quadratic = LocalBasis(knots_.data(), interval, kDegree, time).values[3];
+  const Local quadratic = LocalBasis(knots_, interval, time).values[3];
   Local weight{};
   for (int c = 0; c <= kDegree; ++c) {  // the third differences of the c-th unit vector of coefficients
     Local coefficient{};
@@ -114,8 +115,8 @@ SmoothingFit::Local SmoothingFit::third_derivatives(Index interval, double time)
     for (int d = 1; d <= 3; ++d)
       for (int i = 0; i <= kDegree - d; ++i) {
         const Index first = interval - kDegree + i;
-        const double span = knots_[first + kDegree + 1] - knots_[first + d];
-        coefficient[i] = (kDegree - d + 1) / span * (coefficient[i + 1] - coefficient[i]);
+        const int degree = kDegree - d + 1;
+        coefficient[i] = degree * knots_.inverse_span(degree, first + d) * (coefficient[i + 1] - coefficient[i]);
       }
     for (int i = 0; i <= kDegree - 3; ++i) weight[c] += quadratic[i] * coefficient[i];
   }
@@ -126,7 +127,7 @@ void SmoothingFit::add_roughness() {
   // Gauss's rule of three points is exact for the product of two piecewise parabolas.
   constexpr std::array<double, 3> node{-0.7745966692414834, 0.0, 0.7745966692414834};
   constexpr std::array<double, 3> weight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-  for (Index at = kDegree; at + kDegree + 1 < static_cast<Index>(knots_.size()); ++at) {
+  for (Index at = kDegree; at < knots_.count(); ++at) {
     const double span = knots_[at + 1] - knots_[at];
     for (std::size_t g = 0; g < 3; ++g) {
       const Local third = third_derivatives(at, knots_[at] + 0.5 * span * (1.0 + node[g]));

@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "detail/knots.hpp"
+
 namespace dmp::detail {
 
 /// The coefficients of a quintic smoothing spline: minimises |y - B c|^2 + lambda int (third derivative)^2,
@@ -16,7 +18,7 @@ class SmoothingFit {
   /// times (T) s, strictly increasing, T >= 10.
   explicit SmoothingFit(const Eigen::VectorXd& times);
 
-  const std::vector<double>& knots() const noexcept { return knots_; }
+  const Knots& knots() const noexcept { return knots_; }
   /// values (T x d) -> coefficients (basis functions x d), with the lambda that suits all columns best.
   RowMatrix solve(const RowMatrix& values);
   /// Degrees of freedom that the last solution leaves to the noise: T - trace of the smoother.
@@ -37,7 +39,7 @@ class SmoothingFit {
   RowMatrix evaluated(const RowMatrix& coefficients) const;
 
   Eigen::Index samples_;
-  std::vector<double> knots_;
+  Knots knots_;
   std::vector<Eigen::Index> interval_;  // of each sample
   std::vector<Local> row_;              // B-splines at each sample
   Band gram_;
