@@ -1,6 +1,7 @@
 // One operation of the core, repeated: what scripts count instructions of and what prints thread-CPU times.
 //   operations NAME REPEATS     runs it REPEATS times and prints nothing (for callgrind)
 //   operations                  prints a table of medians
+#include <dmp/batch.hpp>
 #include <dmp/file.hpp>
 #include <dmp/so3.hpp>
 
@@ -70,6 +71,8 @@ std::map<std::string, std::function<void()>> operations() {
       {"step_pose_log_linear", stepping(PoseRun(PoseDmp::fit(both, log_linear())))},
       {"fit_position", [t, y] { Dmp::fit(Demonstration(t, y)); }},
       {"fit_pose", [t, p] { PoseDmp::fit(PoseDemonstration(t, p)); }},
+      {"fit_100_positions", [t, ys = std::vector<RowMatrix>(100, y)] { fit_each(t, ys); }},
+      {"fit_100_poses", [t, ps = std::vector<Poses>(100, p)] { fit_each(t, ps); }},
       {"rollout_position", [dmp] { dmp.rollout({}, {}, kStep); }},
       {"rollout_pose", [pose] { pose.rollout({}, {}, kStep); }},
   };

@@ -32,6 +32,12 @@ void require_times(const Eigen::VectorXd& times, Index count, const std::string&
   }
 }
 
+void require_count(Index given, Index expected, const char* what) {
+  if (given != expected)
+    throw InvalidArgument(std::string(what) + ": " + std::to_string(given) +
+                          " samples, expected one for each of the " + std::to_string(expected) + " times.");
+}
+
 /// Checked times, from 0.
 Eigen::VectorXd from_zero(const Eigen::VectorXd& times, Index count, const std::string& what) {
   require_times(times, count, what);
@@ -52,7 +58,8 @@ RowMatrix checked(const RowMatrix& positions) {
 Rotations checked(const Rotations& rotations) {
   Rotations result = rotations;
   for (std::size_t k = 0; k < rotations.size(); ++k) {
-    so3::require_rotation(rotations[k], indexed("rotations", static_cast<long>(k)));
+    if (!so3::is_rotation(rotations[k]))  // the name costs more than the look
+      so3::require_rotation(rotations[k], indexed("rotations", static_cast<long>(k)));
     result[k] = Quaterniond(rotations[k]).normalized().toRotationMatrix();
     if (k == 0) continue;
     const double angle = so3::distance(result[k], result[k - 1]);
@@ -106,6 +113,13 @@ Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& posi
       position_(checked(positions)),
       spline_(time_, position_) {}
 
+Demonstration Demonstration::with(const RowMatrix& positions) const {
+  require_count(positions.rows(), size(), "positions");
+  RowMatrix position = checked(positions);
+  Spline spline = spline_.through(position);
+  return {time_, std::move(position), std::move(spline)};
+}
+
 Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
   Spline::Samples samples = spline_.sample(times);
   return {times, std::move(samples.value), std::move(samples.first), std::move(samples.second)};
@@ -127,6 +141,18 @@ OrientationDemonstration::OrientationDemonstration(const Eigen::VectorXd& times,
 
 OrientationDemonstration::OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline)
     : time_(std::move(time)), rotation_(std::move(rotation)), spline_(std::move(spline)) {}
+
+OrientationDemonstration OrientationDemonstration::on(const Eigen::VectorXd& time, const Spline& grid,
+                                                      const Rotations& rotations) {
+  require_count(static_cast<Index>(rotations.size()), time.size(), "rotations");
+  Rotations rotation = checked(rotations);
+  Spline spline = grid.through(continuous_quaternions(rotation));
+  return {time, std::move(rotation), std::move(spline)};
+}
+
+OrientationDemonstration OrientationDemonstration::with(const Rotations& rotations) const {
+  return on(time_, spline_, rotations);
+}
 
 OrientationDemonstration OrientationDemonstration::smoothed(Smoothing* report) const {
   Smoothing found;
@@ -175,10 +201,15 @@ OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times)
 }
 
 PoseDemonstration::PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses)
-    : position_(times, positions_of(poses)), orientation_(times, rotations_of(poses)) {}
+    : position_(times, positions_of(poses)),
+      orientation_(OrientationDemonstration::on(position_.time_, position_.spline_, rotations_of(poses))) {}
 
 PoseDemonstration::PoseDemonstration(Demonstration position, OrientationDemonstration orientation)
     : position_(std::move(position)), orientation_(std::move(orientation)) {}
+
+PoseDemonstration PoseDemonstration::with(const Poses& poses) const {
+  return {position_.with(positions_of(poses)), orientation_.with(rotations_of(poses))};
+}
 
 PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* orientation) const {
   return {position_.smoothed(position), orientation_.smoothed(orientation)};

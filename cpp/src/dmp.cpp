@@ -1,6 +1,7 @@
 #include <dmp/dmp.hpp>
 #include <dmp/error.hpp>
 
+#include "detail/forcing_fit.hpp"
 #include "detail/learning.hpp"
 #include "detail/parameters.hpp"
 #include "detail/position_motion.hpp"
@@ -40,7 +41,7 @@ DmpParameters checked(const DmpParameters& given) {
 }
 
 /// The means that a model of several demonstrations starts from.
-DmpParameters means_of(const std::vector<Demonstration>& demonstrations,
+DmpParameters means_of(const Demonstration* demonstrations,
                        const std::vector<detail::PositionLesson>& lessons, const DmpOptions& options) {
   const Index dimension = lessons.front().start.size();
   const VectorXd zero = VectorXd::Zero(dimension);
@@ -60,14 +61,21 @@ DmpParameters means_of(const std::vector<Demonstration>& demonstrations,
 }  // namespace
 
 Dmp Dmp::fit(const Demonstration& demonstration, const DmpOptions& options) {
-  return fit(std::vector<Demonstration>{demonstration}, options);
+  std::unique_ptr<detail::ForcingFit> memory;
+  return fit_together(&demonstration, 1, options, memory);
 }
 
 Dmp Dmp::fit(const std::vector<Demonstration>& demonstrations, const DmpOptions& options) {
-  if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
+  std::unique_ptr<detail::ForcingFit> memory;
+  return fit_together(demonstrations.data(), demonstrations.size(), options, memory);
+}
+
+Dmp Dmp::fit_together(const Demonstration* demonstrations, std::size_t count, const DmpOptions& options,
+                      std::unique_ptr<detail::ForcingFit>& memory) {
+  if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
   const DmpOptions resolved = detail::resolved(options);
   std::vector<detail::PositionLesson> lessons;
-  for (std::size_t j = 0; j < demonstrations.size(); ++j) {
+  for (std::size_t j = 0; j < count; ++j) {
     if (demonstrations[j].dimension() != demonstrations[0].dimension())
       throw InvalidArgument(detail::indexed("demonstrations", static_cast<long>(j)) + ": " +
                             std::to_string(demonstrations[j].dimension()) + " dimensions, expected " +
@@ -81,7 +89,10 @@ Dmp Dmp::fit(const std::vector<Demonstration>& demonstrations, const DmpOptions&
                           parameters.amplitude, resolved);
     targets.push_back(std::move(lesson.target));
   }
-  parameters.weights = fit_forcing(detail::basis_of(resolved), targets, resolved);
+  if (!memory || memory->dimension() != targets.front().value.cols())
+    memory = std::make_unique<detail::ForcingFit>(detail::basis_of(resolved), resolved,
+                                                  targets.front().value.cols());
+  parameters.weights = memory->weights(targets);
   return Dmp(parameters);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "detail/forcing_fit.hpp"
 #include "detail/learning.hpp"
 #include "detail/orientation_motion.hpp"
 #include "detail/parameters.hpp"
@@ -45,7 +46,7 @@ OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   return parameters;
 }
 
-OrientationDmpParameters means_of(const std::vector<OrientationDemonstration>& demonstrations,
+OrientationDmpParameters means_of(const OrientationDemonstration* demonstrations,
                                   const std::vector<detail::OrientationLesson>& lessons,
                                   const DmpOptions& options) {
   OrientationDmpParameters mean;
@@ -73,17 +74,24 @@ OrientationDmpParameters means_of(const std::vector<OrientationDemonstration>& d
 }  // namespace
 
 OrientationDmp OrientationDmp::fit(const OrientationDemonstration& demonstration, const DmpOptions& options) {
-  return fit(std::vector<OrientationDemonstration>{demonstration}, options);
+  std::unique_ptr<detail::ForcingFit> memory;
+  return fit_together(&demonstration, 1, options, memory);
 }
 
 OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& demonstrations,
                                    const DmpOptions& options) {
-  if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
+  std::unique_ptr<detail::ForcingFit> memory;
+  return fit_together(demonstrations.data(), demonstrations.size(), options, memory);
+}
+
+OrientationDmp OrientationDmp::fit_together(const OrientationDemonstration* demonstrations, std::size_t count,
+                                            const DmpOptions& options,
+                                            std::unique_ptr<detail::ForcingFit>& memory) {
+  if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
   DmpOptions resolved = detail::resolved(options);
-  resolved.orientation_form = detail::form_for(resolved, demonstrations.front());
+  resolved.orientation_form = detail::form_for(resolved, demonstrations[0]);
   std::vector<detail::OrientationLesson> lessons;
-  for (const OrientationDemonstration& demonstration : demonstrations)
-    lessons.push_back(detail::lesson_of(demonstration, resolved));
+  for (std::size_t j = 0; j < count; ++j) lessons.push_back(detail::lesson_of(demonstrations[j], resolved));
   OrientationDmpParameters parameters = means_of(demonstrations, lessons, resolved);
   std::vector<ForcingTarget> targets;
   for (detail::OrientationLesson& lesson : lessons) {
@@ -91,7 +99,10 @@ OrientationDmp OrientationDmp::fit(const std::vector<OrientationDemonstration>& 
                           resolved);
     targets.push_back(std::move(lesson.target));
   }
-  parameters.weights = fit_forcing(detail::basis_of(resolved), targets, resolved);
+  if (!memory || memory->dimension() != targets.front().value.cols())
+    memory = std::make_unique<detail::ForcingFit>(detail::basis_of(resolved), resolved,
+                                                  targets.front().value.cols());
+  parameters.weights = memory->weights(targets);
   return OrientationDmp(parameters);
 }
 

@@ -2,6 +2,7 @@
 #include <dmp/pose_dmp.hpp>
 #include <dmp/so3.hpp>
 
+#include "detail/forcing_fit.hpp"
 #include "detail/learning.hpp"
 #include "detail/orientation_motion.hpp"
 #include "detail/parameters.hpp"
@@ -91,8 +92,8 @@ PoseLesson lesson_of(const PoseDemonstration& demonstration, const DmpOptions& o
   return lesson;
 }
 
-PoseDmpParameters means_of(const std::vector<PoseDemonstration>& demonstrations,
-                           const std::vector<PoseLesson>& lessons, const DmpOptions& options) {
+PoseDmpParameters means_of(const PoseDemonstration* demonstrations, const std::vector<PoseLesson>& lessons,
+                           const DmpOptions& options) {
   PoseDmpParameters mean;
   mean.options = options;
   mean.duration = 0.0;
@@ -135,16 +136,22 @@ struct PoseRun::State {
 };
 
 PoseDmp PoseDmp::fit(const PoseDemonstration& demonstration, const DmpOptions& options) {
-  return fit(std::vector<PoseDemonstration>{demonstration}, options);
+  std::unique_ptr<detail::ForcingFit> memory;
+  return fit_together(&demonstration, 1, options, memory);
 }
 
 PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const DmpOptions& options) {
-  if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
+  std::unique_ptr<detail::ForcingFit> memory;
+  return fit_together(demonstrations.data(), demonstrations.size(), options, memory);
+}
+
+PoseDmp PoseDmp::fit_together(const PoseDemonstration* demonstrations, std::size_t count,
+                              const DmpOptions& options, std::unique_ptr<detail::ForcingFit>& memory) {
+  if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
   DmpOptions resolved = detail::resolved(options);
-  resolved.orientation_form = detail::form_for(resolved, demonstrations.front().orientation());
+  resolved.orientation_form = detail::form_for(resolved, demonstrations[0].orientation());
   std::vector<PoseLesson> lessons;
-  for (const PoseDemonstration& demonstration : demonstrations)
-    lessons.push_back(lesson_of(demonstration, resolved));
+  for (std::size_t j = 0; j < count; ++j) lessons.push_back(lesson_of(demonstrations[j], resolved));
   PoseDmpParameters parameters = means_of(demonstrations, lessons, resolved);
   const Vector3d way = position_of(parameters.goal) - position_of(parameters.start);
   std::vector<ForcingTarget> targets;
@@ -155,7 +162,10 @@ PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const
                           parameters.amplitude.tail<3>(), resolved);
     targets.push_back(std::move(lesson.target));
   }
-  parameters.weights = fit_forcing(detail::basis_of(resolved), targets, resolved);
+  if (!memory || memory->dimension() != targets.front().value.cols())
+    memory = std::make_unique<detail::ForcingFit>(detail::basis_of(resolved), resolved,
+                                                  targets.front().value.cols());
+  parameters.weights = memory->weights(targets);
   return PoseDmp(parameters);
 }
 

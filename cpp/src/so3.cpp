@@ -217,22 +217,34 @@ Vector3d to_euler(const Matrix3d& r, const std::string& convention) {
   return convention == "source" ? Vector3d(-angles) : angles;
 }
 
+namespace {
+
+double defect(const Matrix3d& r) noexcept {
+  return (r.transpose() * r - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+bool is_rotation(const Matrix3d& r) noexcept {
+  const Matrix3d excess = r.transpose() * r - Matrix3d::Identity();
+  return (excess.array().abs() <= 1e-3).all() && r.determinant() > 0.0;  // false for what is not a number
+}
+
 void require_rotation(const Matrix3d& r, const std::string& name) {
+  if (is_rotation(r)) return;
   if (!r.allFinite())
     throw InvalidArgument(name + ": not finite, expected a rotation matrix. Remove or fill the gap.");
   char number[32];
   const double determinant = r.determinant();
-  std::snprintf(number, sizeof number, "%.3f", determinant);
-  if (determinant < 0.0)
+  if (determinant < 0.0) {
+    std::snprintf(number, sizeof number, "%.3f", determinant);
     throw InvalidArgument(name + ": det(R) = " + number +
                           ", expected +1 (a reflection). Check the axis order.");
-  const double defect = (r.transpose() * r - Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (defect > 1e-3) {
-    std::snprintf(number, sizeof number, "%.3g", defect);
-    throw InvalidArgument(
-        name + ": |R^T R - I| = " + number +
-        ", expected at most 1e-3 (a rotation matrix). Orthonormalise it, or check its layout.");
   }
+  std::snprintf(number, sizeof number, "%.3g", defect(r));
+  throw InvalidArgument(
+      name + ": |R^T R - I| = " + number +
+      ", expected at most 1e-3 (a rotation matrix). Orthonormalise it, or check its layout.");
 }
 
 Matrix3d nearest_rotation(const Matrix3d& r) {

@@ -2,6 +2,7 @@
 set(DMP_core_SOURCES
   average.cpp
   basis.cpp
+  batch.cpp
   demonstration.cpp
   dmp.cpp
   file.cpp
@@ -9,6 +10,7 @@ set(DMP_core_SOURCES
   forcing.cpp
   options.cpp
   orientation_dmp.cpp
+  parallel.cpp
   phase.cpp
   pose_dmp.cpp
   so3.cpp

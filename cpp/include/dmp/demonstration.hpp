@@ -26,6 +26,9 @@ class DMP_EXPORT Demonstration {
   const Eigen::VectorXd& time() const noexcept { return time_; }  ///< (T) s, from 0
   const RowMatrix& position() const noexcept { return position_; }
 
+  /// Other positions (T x dims) at the same times: what the spline needs of the times alone is shared.
+  Demonstration with(const RowMatrix& positions) const;
+
   /// Position, velocity and acceleration on the spline at times (n) in s from the start.
   Trajectory at(const Eigen::VectorXd& times) const;
 
@@ -34,6 +37,7 @@ class DMP_EXPORT Demonstration {
   Demonstration smoothed(Smoothing* report = nullptr) const;
 
  private:
+  friend class PoseDemonstration;
   Demonstration(Eigen::VectorXd time, RowMatrix position, Spline spline);
   Eigen::VectorXd time_;
   RowMatrix position_;
@@ -57,6 +61,9 @@ class DMP_EXPORT OrientationDemonstration {
   const Eigen::VectorXd& time() const noexcept { return time_; }  ///< (T) s, from 0
   const Rotations& rotation() const noexcept { return rotation_; }
 
+  /// Other rotations (T) at the same times, as Demonstration::with.
+  OrientationDemonstration with(const Rotations& rotations) const;
+
   /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start.
   OrientationTrajectory at(const Eigen::VectorXd& times) const;
 
@@ -65,7 +72,11 @@ class DMP_EXPORT OrientationDemonstration {
   OrientationDemonstration smoothed(Smoothing* report = nullptr) const;
 
  private:
+  friend class PoseDemonstration;
   OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline);
+  /// At the times of `grid`, whose spline goes through samples.
+  static OrientationDemonstration on(const Eigen::VectorXd& time, const Spline& grid,
+                                     const Rotations& rotations);
   Eigen::VectorXd time_;
   Rotations rotation_;
   Spline spline_;
@@ -83,6 +94,8 @@ class DMP_EXPORT PoseDemonstration {
   Poses pose() const;                                                        ///< (T)
   const Demonstration& position() const noexcept { return position_; }
   const OrientationDemonstration& orientation() const noexcept { return orientation_; }
+  /// Other poses (T) at the same times, as Demonstration::with.
+  PoseDemonstration with(const Poses& poses) const;
   /// Both parts smoothed.
   PoseDemonstration smoothed(Smoothing* position = nullptr, Smoothing* orientation = nullptr) const;
 

@@ -16,8 +16,10 @@
 namespace dmp {
 
 namespace detail {
+class ForcingFit;
+struct BatchFit;
 struct Timetable;
-}
+}  // namespace detail
 
 /// All that a Dmp is: what a model file holds.
 struct DmpParameters {
@@ -65,6 +67,10 @@ class DMP_EXPORT Dmp {
                         std::optional<double> duration = {}) const;
 
  private:
+  friend struct detail::BatchFit;
+  /// From `count` demonstrations; `memory` keeps what later fits may share.
+  static Dmp fit_together(const Demonstration* demonstrations, std::size_t count, const DmpOptions& options,
+                          std::unique_ptr<detail::ForcingFit>& memory);
   friend class Run;
   Trajectory roll_out(const detail::Timetable& timetable, const std::optional<Eigen::VectorXd>& goal,
                       std::optional<double> duration) const;

@@ -17,8 +17,10 @@
 namespace dmp {
 
 namespace detail {
+class ForcingFit;
+struct BatchFit;
 struct Timetable;
-}
+}  // namespace detail
 
 /// All that an OrientationDmp is: what a model file holds.
 struct OrientationDmpParameters {
@@ -65,6 +67,10 @@ class DMP_EXPORT OrientationDmp {
                                    std::optional<double> duration = {}) const;
 
  private:
+  friend struct detail::BatchFit;
+  /// From `count` demonstrations; `memory` keeps what later fits may share.
+  static OrientationDmp fit_together(const OrientationDemonstration* demonstrations, std::size_t count,
+                                     const DmpOptions& options, std::unique_ptr<detail::ForcingFit>& memory);
   friend class OrientationRun;
   OrientationTrajectory roll_out(const detail::Timetable& timetable,
                                  const std::optional<Eigen::Matrix3d>& goal,

@@ -48,6 +48,10 @@ class DMP_EXPORT PoseDmp {
                             std::optional<double> duration = {}) const;
 
  private:
+  friend struct detail::BatchFit;
+  /// From `count` demonstrations; `memory` keeps what later fits may share.
+  static PoseDmp fit_together(const PoseDemonstration* demonstrations, std::size_t count,
+                              const DmpOptions& options, std::unique_ptr<detail::ForcingFit>& memory);
   friend class PoseRun;
   PoseTrajectory roll_out(const detail::Timetable& timetable, const std::optional<Eigen::Matrix4d>& goal,
                           std::optional<double> duration) const;

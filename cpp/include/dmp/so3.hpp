@@ -49,6 +49,8 @@ DMP_EXPORT Eigen::Matrix3d from_euler(const Eigen::Vector3d& angles, const std::
 /// Bernardes and Viollet 2022, "Quaternion to Euler angles conversion", PLOS ONE.
 DMP_EXPORT Eigen::Vector3d to_euler(const Eigen::Matrix3d& r, const std::string& convention);
 
+/// Whether r is a rotation to 1e-3: |R^T R - I| elementwise, det(R) > 0; false if not finite.
+DMP_EXPORT bool is_rotation(const Eigen::Matrix3d& r) noexcept;
 /// Throws InvalidArgument, naming `name`, unless r is a rotation: finite, orthogonal to 1e-3, det +1.
 DMP_EXPORT void require_rotation(const Eigen::Matrix3d& r, const std::string& name);
 /// The rotation nearest to r (polar decomposition), for one that require_rotation lets pass.

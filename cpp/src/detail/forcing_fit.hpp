@@ -15,6 +15,7 @@ class ForcingFit {
   /// `options` with every optional one given.
   ForcingFit(const GaussianBasis& basis, const DmpOptions& options, Eigen::Index dimension);
 
+  Eigen::Index dimension() const noexcept { return together_.axes(); }
   RowMatrix weights(const std::vector<ForcingTarget>& targets);
 
  private:

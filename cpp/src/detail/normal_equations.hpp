@@ -19,6 +19,7 @@ class NormalEquations {
   void add(const ForcingTarget& target, Eigen::Index first, double scale);
 
   Eigen::Index kernels() const noexcept { return basis_.count(); }
+  Eigen::Index axes() const noexcept { return right_.cols(); }
   RowMatrix solve_lwr(int passes) const;
   RowMatrix solve_ridge(double ridge) const;
   /// Largest over smallest eigenvalue of D^-1/2 G D^-1/2 (locally weighted regression, D the norms) or G +

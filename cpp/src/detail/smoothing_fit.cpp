@@ -116,7 +116,8 @@ SmoothingFit::Local SmoothingFit::third_derivatives(Index interval, double time)
       for (int i = 0; i <= kDegree - d; ++i) {
         const Index first = interval - kDegree + i;
         const int degree = kDegree - d + 1;
-        coefficient[i] = degree * knots_.inverse_span(degree, first + d) * (coefficient[i + 1] - coefficient[i]);
+        coefficient[i] =
+            degree * knots_.inverse_span(degree, first + d) * (coefficient[i + 1] - coefficient[i]);
       }
     for (int i = 0; i <= kDegree - 3; ++i) weight[c] += quadratic[i] * coefficient[i];
   }
