@@ -6,7 +6,7 @@
 
 namespace dmp::detail {
 namespace {
-constexpr std::size_t carried_on = 6;
+constexpr std::size_t carried_on = 24;
 }
 
 IkSearch::IkSearch(const ChainModel& model, const IkOptions& options)
