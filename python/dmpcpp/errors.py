@@ -15,6 +15,7 @@ class IkError(RuntimeError):
     """
 
     def __init__(self, message: str, report: IkResult | PathReport) -> None:
+        """Keep the report beside the message."""
         super().__init__(message)
         self.report = report
 
