@@ -5,10 +5,13 @@ installed is left out, and said so.
 from __future__ import annotations
 
 import logging
+import tempfile
 import warnings
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 from dmpcpp import Arm, IkBackend, InverseKinematics
@@ -94,9 +97,21 @@ def _present(make: Callable[..., Solver], *arguments: Any) -> Solver | None:
 def _roboticstoolbox(arm: Arm, urdf: str) -> Solver:
     import roboticstoolbox
 
-    chain = roboticstoolbox.Robot.URDF(urdf).ets(start=arm.base, end=arm.tip)
+    with tempfile.TemporaryDirectory() as folder:
+        bare = Path(folder) / "bare.urdf"
+        bare.write_bytes(_without_meshes(urdf))
+        chain = roboticstoolbox.Robot.URDF(str(bare)).ets(start=arm.base, end=arm.tip)
     energy = 0.5 * (0.5 * TOLERANCE) ** 2  # half the squared error, as its tolerance counts
     return lambda pose, seed: np.asarray(chain.ik_LM(pose, q0=seed, tol=energy, joint_limits=True).q)
+
+
+def _without_meshes(urdf: str) -> bytes:
+    """The URDF without what is seen and touched, whose files roboticstoolbox would look for."""
+    robot = ElementTree.parse(urdf).getroot()
+    for link in robot.iter("link"):
+        for part in [*link.findall("visual"), *link.findall("collision")]:
+            link.remove(part)
+    return bytes(ElementTree.tostring(robot))
 
 
 def _trac_ik(arm: Arm, urdf: str) -> Solver:
