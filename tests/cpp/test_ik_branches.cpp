@@ -22,7 +22,8 @@ std::vector<Eigen::VectorXd> all(IkBranches branches) {
 
 }  // namespace
 
-TEST_CASE("The two elbows of the two-link arm are all its branches when the tool may turn, the seed's first") {
+TEST_CASE(
+    "The two elbows of the two-link arm are all its branches when the tool may turn, the seed's first") {
   const Arm arm = Arm::from_urdf(arms::two_link());
   dmp::IkOptions options;
   options.weight << 1, 1, 1, 0, 0, 0;
@@ -34,14 +35,16 @@ TEST_CASE("The two elbows of the two-link arm are all its branches when the tool
   CHECK((found[1] - Eigen::Vector2d(1.5, -1.2)).norm() < 1e-5);  // the mirror image in the closed form
 }
 
-TEST_CASE("Branches meet the pose within the limits, differ from each other, and come in the same order again") {
+TEST_CASE(
+    "Branches meet the pose within the limits, differ from each other, and come in the same order again") {
   const Arm arm = Arm::from_urdf(arms::seven_joints());
   std::mt19937 random(3);
   const Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
   const Eigen::VectorXd seed = Eigen::VectorXd::Constant(7, -0.5);
   dmp::BranchOptions sparse;
   sparse.apart = 1.0;
-  const auto found = all(IkBranches(arm, pose, seed, {}, sparse)), again = all(IkBranches(arm, pose, seed, {}, sparse));
+  const auto found = all(IkBranches(arm, pose, seed, {}, sparse)),
+             again = all(IkBranches(arm, pose, seed, {}, sparse));
   CHECK(found.size() > 3);
   CHECK(found == again);
   for (std::size_t i = 0; i < found.size(); ++i) {

@@ -58,15 +58,16 @@ TEST_CASE("The loop takes no memory, whether poses are met or not" * doctest::sk
   const Arm arm = seven_joints();
   JointTracker tracker(arm, home());
   dmp::Poses poses = circle(arm, home());
-  for (std::size_t k = 500; k < 600; ++k) poses[k](0, 3) += 2.0;      // out of reach
-  poses[700].topLeftCorner<3, 3>() *= 1.0 + 1e-5;                     // made rigid again
-  poses[800](1, 3) = std::nan("");                                    // refused
+  for (std::size_t k = 500; k < 600; ++k) poses[k](0, 3) += 2.0;  // out of reach
+  poses[700].topLeftCorner<3, 3>() *= 1.0 + 1e-5;                 // made rigid again
+  poses[800](1, 3) = std::nan("");                                // refused
   const Eigen::VectorXd start = home();
   double sum = 0.0;
   CHECK(allocations_in([&] {
           for (const Eigen::Matrix4d& pose : poses) {
             tracker.track(pose, dt);
-            sum += tracker.joints()[0] + tracker.velocity()[1] + tracker.position_error() + tracker.angle_error();
+            sum += tracker.joints()[0] + tracker.velocity()[1] + tracker.position_error() +
+                   tracker.angle_error();
           }
           tracker.set_joints(start);
         }) == 0);
@@ -79,7 +80,8 @@ TEST_CASE("The same calls give the same joints to the last bit, from a copy too"
   const dmp::Poses poses = circle(arm, home());
   for (std::size_t k = 0; k < 400; ++k) one.track(poses[k], dt), other.track(poses[k], dt);
   JointTracker copy = one;
-  for (std::size_t k = 400; k < 1000; ++k) one.track(poses[k], dt), copy.track(poses[k], dt), other.track(poses[k], dt);
+  for (std::size_t k = 400; k < 1000; ++k)
+    one.track(poses[k], dt), copy.track(poses[k], dt), other.track(poses[k], dt);
   CHECK(one.joints() == other.joints());
   CHECK(one.joints() == copy.joints());
 }

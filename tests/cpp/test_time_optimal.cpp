@@ -19,7 +19,9 @@ const double infinity = std::numeric_limits<double>::infinity();
 
 Eigen::VectorXd one(double value) { return Eigen::VectorXd::Constant(1, value); }
 
-double duration(const JointTrajectory& joints) { return joints.time[joints.time.size() - 1] - joints.time[0]; }
+double duration(const JointTrajectory& joints) {
+  return joints.time[joints.time.size() - 1] - joints.time[0];
+}
 
 // Through random postures, 400 samples of a sum of sines that is at rest at both ends.
 JointTrajectory random_motion(int seed, Eigen::Index joints) {
@@ -48,7 +50,7 @@ JointTrajectory line(double way) {
 TEST_CASE("A straight way takes the time of the trapezoid: full acceleration, full speed, full braking") {
   const double bang = duration(dmp::time_optimal(line(1.0), {one(infinity), one(4.0), {}}));
   CHECK(bang >= 1.0 - 1e-9);  // 2 sqrt(way / acceleration)
-  CHECK(bang < 1.06);  // the spline can not switch at once
+  CHECK(bang < 1.06);         // the spline can not switch at once
   const double cruise = duration(dmp::time_optimal(line(3.0), {one(1.0), one(2.0), {}}));
   CHECK(cruise >= 3.5 - 1e-9);  // way / speed + speed / acceleration
   CHECK(cruise < 3.6);
@@ -76,10 +78,12 @@ TEST_CASE("The limits hold to 1e-9 everywhere on the spline, which begins and en
 TEST_CASE("A rest on the way costs next to nothing") {
   dmp::RowMatrix positions(900, 1);
   for (Eigen::Index k = 0; k < 900; ++k) {
-    const double s = std::min(static_cast<double>(k), std::max(299.0, static_cast<double>(k) - 300.0)) / 599.0;
+    const double s =
+        std::min(static_cast<double>(k), std::max(299.0, static_cast<double>(k) - 300.0)) / 599.0;
     positions(k, 0) = 0.5 - 0.5 * std::cos(2.0 * 3.14159265358979 * s);  // there, a rest of 300 samples, back
   }
-  const JointTrajectory joints = JointTrajectory::through(Eigen::VectorXd::LinSpaced(900, 0.0, 9.0), positions);
+  const JointTrajectory joints =
+      JointTrajectory::through(Eigen::VectorXd::LinSpaced(900, 0.0, 9.0), positions);
   const double found = duration(dmp::time_optimal(joints, {one(infinity), one(4.0), {}}));
   CHECK(found >= 2.0 - 1e-6);
   CHECK(found < 2.3);
@@ -89,7 +93,8 @@ TEST_CASE("The effort limit holds at every sample, by a pendulum's closed form")
   // 2 kg at 0.5 m on a horizontal axis: effort = m l^2 qdd + m g l cos(q).
   const std::string text =
       "<robot name=\"pendulum\"><link name=\"a\"/><link name=\"b\"><inertial><origin xyz=\"0.5 0 0\"/>"
-      "<mass value=\"2\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>"
+      "<mass value=\"2\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" "
+      "izz=\"0\"/></inertial></link>"
       "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 -1 0\"/>"
       "<limit lower=\"-3\" upper=\"3\" velocity=\"9\" effort=\"20\"/></joint></robot>";
   const dmp::Arm arm = dmp::Arm::from_urdf(text);
@@ -123,6 +128,7 @@ TEST_CASE("Limits that are none are refused by name") {
                        doctest::Contains("acceleration[0]"), dmp::InvalidArgument);
   CHECK_THROWS_WITH_AS(dmp::time_optimal(joints, {one(1.0), one(1.0), one(1.0)}),
                        doctest::Contains("needs an arm"), dmp::InvalidArgument);
-  CHECK_THROWS_WITH_AS(dmp::time_optimal(dmp::Arm::from_urdf(arms::two_link()), joints, {one(1.0), one(1.0), {}}),
-                       doctest::Contains("columns"), dmp::InvalidArgument);
+  CHECK_THROWS_WITH_AS(
+      dmp::time_optimal(dmp::Arm::from_urdf(arms::two_link()), joints, {one(1.0), one(1.0), {}}),
+      doctest::Contains("columns"), dmp::InvalidArgument);
 }
