@@ -213,9 +213,9 @@ def threads(name: str, arm: Arm, count: int) -> None:
         together.append(time.perf_counter() - begin)
         cost_together.append(time.process_time() - begin_cost)
         same &= all(np.array_equal(a, b) for a, b in zip(found, serial, strict=True))
-    gain = min(alone) / min(together)
+    gain, spent = min(alone) / min(together), min(cost_together) / min(cost)
     print(
-        f"{name:6} two threads: {gain:.2f} times the throughput at {min(cost_together) / min(cost):.2f} of the CPU time, "
+        f"{name:6} two threads: {gain:.2f} times the throughput at {spent:.2f} of the CPU time, "
         f"serial answers bit for bit: {same}",
         flush=True,
     )
