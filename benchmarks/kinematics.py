@@ -141,6 +141,9 @@ def feasible_paths(name: str, arm: Arm, reach: float, count: int) -> None:
 def unreachable(name: str, arm: Arm, count: int) -> None:
     """Whether the cause is named, the limits are held, and the joints are the closest that 500 restarts know."""
     for kind in ("beyond", "limits", "step", "singular"):
+        if kind == "limits" and not causes.has_narrow_joint(arm):
+            print(f"{name:6} limits    none: every joint of this arm turns all the way round")
+            continue
         random = np.random.default_rng(7)
         right, broken, worst = 0, 0, 1.0
         for k, case in enumerate(islice(causes.cases(arm, kind, random), count)):

@@ -50,6 +50,11 @@ def closest_of_restarts(arm: Arm, pose: Array, count: int, random: np.random.Gen
     return best
 
 
+def has_narrow_joint(arm: Arm) -> bool:
+    """Whether any joint is kept from a whole turn: without one, no limit ever blocks a pose."""
+    return bool(np.any(arm.upper - arm.lower < 2.0 * np.pi - 1e-3))
+
+
 def cases(arm: Arm, kind: str, random: np.random.Generator) -> Iterator[Case]:
     """Labelled cases of one kind, without end."""
     make = {"beyond": _beyond, "limits": _limits, "step": _step, "singular": _singular}[kind]
