@@ -106,8 +106,11 @@ def _roboticstoolbox(arm: Arm, urdf: str) -> Solver:
 
 
 def _without_meshes(urdf: str) -> bytes:
-    """The URDF without what is seen and touched, whose files roboticstoolbox would look for."""
+    """The links and joints alone: roboticstoolbox looks for the files of meshes and refuses some transmissions."""
     robot = ElementTree.parse(urdf).getroot()
+    for element in list(robot):
+        if element.tag not in ("link", "joint"):
+            robot.remove(element)
     for link in robot.iter("link"):
         for part in [*link.findall("visual"), *link.findall("collision")]:
             link.remove(part)
