@@ -1,40 +1,32 @@
 #include <dmp/error.hpp>
 #include <dmp/inverse_kinematics.hpp>
-#include <dmp/so3.hpp>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <array>
 
+#include "detail/checks.hpp"
 #include "detail/ik_solver.hpp"
-#include "detail/pose_error.hpp"
+#include "detail/singularity.hpp"
 
 namespace dmp {
 namespace {
 
-constexpr double singular_value = 1e-3;  // below it the arm has lost a direction
-constexpr int descents_for_a_verdict =
-    8;  // so many must have stalled before the pose counts as missed for good
-
-void check_positive(double value, const std::string& name) {
-  if (!(value > 0.0))
-    throw InvalidArgument("options." + name + ": " + std::to_string(value) + ", expected > 0.");
-}
+// So many descents must have stalled before the pose counts as missed for good.
+constexpr int descents_for_a_verdict = 8;
 
 void check(const Arm& arm, const IkOptions& options) {
-  check_positive(options.position_tolerance, "position_tolerance");
-  check_positive(options.angle_tolerance, "angle_tolerance");
-  check_positive(options.angle_weight, "angle_weight");
-  check_positive(options.iteration_limit, "iteration_limit");
-  check_positive(options.max_step, "max_step");
-  if (arm.joint_count() > detail::joint_capacity)
-    throw InvalidArgument("arm: " + std::to_string(arm.joint_count()) + " free joints, expected at most " +
-                          std::to_string(detail::joint_capacity) + "; choose a base nearer to the tip.");
+  detail::check_positive(options.position_tolerance, "options.position_tolerance");
+  detail::check_positive(options.angle_tolerance, "options.angle_tolerance");
+  detail::check_positive(options.angle_weight, "options.angle_weight");
+  detail::check_positive(options.iteration_limit, "options.iteration_limit");
+  detail::check_positive(options.max_step, "options.max_step");
+  detail::check_weight(options.weight);
+  if (options.backend != IkBackend::bounded_lm && options.weight != detail::Vector6::Ones())
+    throw InvalidArgument("options.weight: KDL's solvers know whole poses only; use bounded_lm.");
+  detail::check_capacity(arm);
 }
 
 std::vector<Eigen::Index> blocked_joints(const detail::JointRange& range, const detail::Joints& q,
-                                         const detail::Jacobian& jacobian, const detail::Vector6& error) {
-  const detail::Joints wish = jacobian.transpose() * error;  // where each joint would go to come closer
+                                         const detail::Joints& wish) {
   std::vector<Eigen::Index> blocked;
   for (Eigen::Index i = 0; i < q.size(); ++i)
     if ((wish[i] > 0.0 && range.upper[i] - q[i] < 1e-9) || (wish[i] < 0.0 && q[i] - range.lower[i] < 1e-9))
@@ -50,40 +42,23 @@ const char* name_of(IkStatus status) {
   return names[static_cast<std::size_t>(status)];
 }
 
-namespace detail {
-
-namespace {
-double skewness(const Eigen::Matrix3d& r) {
-  return (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-}
-}  // namespace
-
-bool is_rigid(const Eigen::Matrix4d& pose) {
-  const Eigen::Matrix3d r = pose.topLeftCorner<3, 3>();
-  return pose.allFinite() && skewness(r) <= 1e-3 && r.determinant() > 0.0 &&
-         pose.row(3) == Eigen::RowVector4d::Unit(3);
-}
-
-Frame rigid_frame(const Eigen::Matrix4d& pose) {
-  Frame frame = {pose.topLeftCorner<3, 3>(), pose.topRightCorner<3, 1>()};
-  if (skewness(frame.rotation) > 1e-12) frame.rotation = so3::nearest_rotation(frame.rotation);
-  return frame;
-}
-
-}  // namespace detail
-
 InverseKinematics::Solver::Solver(Arm arm_, const IkOptions& options_)
     : arm(std::move(arm_)), options(options_), search(arm.model(), options), chain(arm.model()) {}
 
+// Whether the arm stands where it can not set out for the target, or has come there.
+bool InverseKinematics::Solver::stuck(const detail::Frame& target, const detail::Joints& q) const {
+  detail::Jacobian jacobian;
+  const detail::PoseGoal& goal = search.lm().goal();
+  const detail::Vector6 error = goal.error(target, chain.forward(q, jacobian));
+  return detail::is_singular(goal, target, jacobian, error);
+}
+
 // Why the best joints found do not meet the pose.
 IkStatus InverseKinematics::Solver::diagnosis(const detail::Frame& target, const detail::Joints& seed,
-                                              const detail::Found& best, const detail::Jacobian& jacobian,
-                                              bool blocked) {
-  const bool is_singular =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues().tail<1>()[0] < singular_value;
+                                              const detail::Found& best, bool blocked) {
   const detail::JointRange& range = search.range();
   if (std::isfinite(options.max_step) && search.find(target, seed, range.lower, range.upper).ok)
-    return is_singular ? IkStatus::singular : IkStatus::step_limited;
+    return stuck(target, seed) || stuck(target, best.joints) ? IkStatus::singular : IkStatus::step_limited;
   if (best.stalled < descents_for_a_verdict) return IkStatus::budget;
   if (options.diagnose ? search.find_beyond_limits(target, seed).ok : blocked) return IkStatus::limit_blocked;
   return IkStatus::out_of_reach;
@@ -95,19 +70,13 @@ IkResult InverseKinematics::Solver::solve(const detail::Frame& target, const det
   const detail::Joints lower = range.lower.array().max(seed.array() - options.max_step);
   const detail::Joints upper = range.upper.array().min(seed.array() + options.max_step);
   const detail::Found best = search.find(target, seed, lower, upper);
-  IkResult result;
-  result.joints = best.joints;
-  result.position_error = best.position_error;
-  result.angle_error = best.angle_error;
-  result.iterations = best.iterations;
-  result.limit_margin = range.margin(best.joints);
-  result.status = IkStatus::ok;
-  if (best.ok) return result;
+  IkResult result = search.result(target, best.joints, best.iterations);
+  if (result.ok()) return result;
+  const detail::PoseGoal& goal = search.lm().goal();
   detail::Jacobian jacobian;
-  detail::Vector6 error = detail::pose_error(target, chain.forward(best.joints, jacobian));
-  error.tail<3>() *= options.angle_weight * options.angle_weight;
-  result.blocked = blocked_joints(range, best.joints, jacobian, error);
-  result.status = diagnosis(target, seed, best, jacobian, !result.blocked.empty());
+  const detail::Vector6 error = goal.error(target, chain.forward(best.joints, jacobian));
+  result.blocked = blocked_joints(range, best.joints, goal.wish(target, jacobian, error));
+  result.status = diagnosis(target, seed, best, !result.blocked.empty());
   return result;
 }
 

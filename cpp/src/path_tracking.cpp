@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "detail/checks.hpp"
 #include "detail/ik_solver.hpp"
 #include "detail/joint_spline.hpp"
-#include "detail/pose_error.hpp"
 #include "detail/route_search.hpp"
 
 namespace dmp {
@@ -81,12 +81,11 @@ detail::TargetPath target_path(const Eigen::VectorXd& times, const Poses& poses,
 
 // Why sample k of the route misses its pose, from what holds its joints back.
 IkStatus reason(const detail::TargetPath& path, const detail::Route& route, std::size_t k,
-                const detail::FlatChain& chain, const detail::JointRange& range, double angle_weight) {
+                const detail::BoundedLm& lm, const detail::JointRange& range) {
   const detail::Joints& q = route.joints[k];
   detail::Jacobian jacobian;
-  detail::Vector6 error = detail::pose_error(path.target[k], chain.forward(q, jacobian));
-  error.tail<3>() *= angle_weight * angle_weight;
-  const detail::Joints wish = jacobian.transpose() * error;
+  const detail::Vector6 error = lm.goal().error(path.target[k], lm.chain().forward(q, jacobian));
+  const detail::Joints wish = lm.goal().wish(path.target[k], jacobian, error);
   bool limited = false, stepped = false;
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     if (std::abs(wish[i]) < 1e-12) continue;
@@ -137,8 +136,7 @@ PathReport InverseKinematics::Solver::report(const detail::TargetPath& path, con
     report.angle_error[static_cast<Eigen::Index>(k)] = found.angle_error;
     const bool met =
         found.position_error <= limits.position_tolerance && found.angle_error <= limits.angle_tolerance;
-    report.status.push_back(met ? IkStatus::ok
-                                : reason(path, route, k, chain, search.range(), options.angle_weight));
+    report.status.push_back(met ? IkStatus::ok : reason(path, route, k, search.lm(), search.range()));
   }
   list_missed(report);
   report.max_step = largest_step(route);
@@ -180,7 +178,7 @@ JointTrajectory InverseKinematics::follow(const Eigen::VectorXd& times, const Po
   check_options(options, solver_->search.range());
   const detail::TargetPath path = target_path(times, poses, options, arm().velocity_limit());
   const detail::Tolerances tolerances = {options.position_tolerance, options.angle_tolerance,
-                                         solver_->options.angle_weight};
+                                         solver_->search.lm().goal()};
   detail::RouteSearch routes(arm().model(), tolerances, options, solver_->options.random_seed);
   const detail::Route route = routes.best(path);
   RowMatrix positions(times.size(), arm().joint_count());

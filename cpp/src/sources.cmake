@@ -28,20 +28,29 @@ set(DMP_core_SOURCES
   detail/spring_damper.cpp)
 set(DMP_kinematics_SOURCES
   arm.cpp
+  ik_branches.cpp
   inverse_kinematics.cpp
+  joint_tracker.cpp
   path_tracking.cpp
+  time_optimal.cpp
   time_scaling.cpp
+  detail/arm_dynamics.cpp
   detail/bounded_lm.cpp
   detail/box_step.cpp
   detail/calming.cpp
+  detail/checks.cpp
   detail/flat_chain.cpp
   detail/ik_search.cpp
   detail/joint_range.cpp
   detail/joint_spline.cpp
   detail/kdl_backend.cpp
   detail/kdl_forward.cpp
+  detail/path_timing.cpp
   detail/path_tracker.cpp
+  detail/pose_goal.cpp
   detail/roadmap.cpp
+  detail/singularity.cpp
+  detail/spline_extremes.cpp
   detail/route_search.cpp
   detail/urdf_chain.cpp
   detail/urdf_graph.cpp

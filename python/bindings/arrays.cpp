@@ -60,6 +60,12 @@ Eigen::VectorXd to_vector(const Array& array, const std::string& name) {
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.shape(0));
 }
 
+Eigen::Matrix<double, 6, 1> to_vector6(const Array& array, const std::string& name) {
+  const Eigen::VectorXd values = to_vector(array, name);
+  if (values.size() != 6) refuse(array, name, "(6,)");
+  return values;
+}
+
 RowMatrix to_matrix(const Array& array, const std::string& name, Eigen::Index columns) {
   const std::string expected = "(T, " + (columns < 0 ? std::string("d") : std::to_string(columns)) + ")";
   if (array.ndim() == 1 && (columns == 1 || columns < 0))

@@ -19,6 +19,8 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// (n), or (1,) ... a scalar is refused; throws InvalidArgument naming `name`, the shape and what was
 /// expected.
 Eigen::VectorXd to_vector(const Array& array, const std::string& name);
+/// (6)
+Eigen::Matrix<double, 6, 1> to_vector6(const Array& array, const std::string& name);
 /// (n x columns); a one-dimensional array of n values is taken as (n x 1) when columns is 1 or unknown (-1).
 RowMatrix to_matrix(const Array& array, const std::string& name, Eigen::Index columns = -1);
 /// (3, 3) or (4, 4)

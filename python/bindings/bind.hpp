@@ -15,5 +15,7 @@ void bind_batch(pybind11::module_& m);
 void bind_learning(pybind11::module_& m);
 void bind_file(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
+void bind_joint_tracker(pybind11::module_& m);
+void bind_timing(pybind11::module_& m);
 
 }  // namespace dmp::python

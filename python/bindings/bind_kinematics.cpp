@@ -2,12 +2,13 @@
 #include <pybind11/stl.h>
 #include <dmp/arm.hpp>
 #include <dmp/error.hpp>
+#include <dmp/ik_branches.hpp>
 #include <dmp/inverse_kinematics.hpp>
 #include <dmp/path_tracking.hpp>
-#include <dmp/time_scaling.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "options.hpp"
 
 namespace dmp::python {
 namespace {
@@ -21,18 +22,6 @@ auto vector_of(const Eigen::VectorXd& (Owner::*get)() const) {
 std::optional<Eigen::VectorXd> optional_vector(const std::optional<Array>& array, const std::string& name) {
   if (!array) return std::nullopt;
   return to_vector(*array, name);
-}
-
-// `options` with the keywords written over its fields.
-template <class Options>
-Options with_fields(const std::optional<Options>& options, const py::kwargs& fields) {
-  py::object object = py::cast(options.value_or(Options{}));
-  for (const auto& [name, value] : fields) {
-    if (!py::hasattr(object, name))
-      throw py::type_error("unknown option '" + py::str(name).cast<std::string>() + "'.");
-    py::setattr(object, name, py::reinterpret_borrow<py::object>(value));
-  }
-  return object.cast<Options>();
 }
 
 void bind_arm(py::module_& m) {
@@ -105,6 +94,27 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
       });
 }
 
+std::string summary(const IkResult& r) {
+  return std::string(name_of(r.status)) + ": " + std::to_string(1e3 * r.position_error) + " mm, " +
+         std::to_string(r.angle_error) + " rad";
+}
+
+[[noreturn]] void raise_ik_error(const std::string& message, const py::object& report) {
+  const py::object type = py::module_::import("dmpcpp.errors").attr("IkError");
+  PyErr_SetObject(type.ptr(), type(message, report).ptr());
+  throw py::error_already_set();
+}
+
+void bind_branches(py::module_& m) {
+  py::class_<IkBranches>(m, "IkBranches", "The different joints that meet one pose, one after the other.")
+      .def("__iter__", [](IkBranches& b) -> IkBranches& { return b; })
+      .def("__next__", [](IkBranches& b) {
+        const auto found = b.next();
+        if (!found) throw py::stop_iteration();
+        return *found;
+      });
+}
+
 void bind_results(py::module_& m) {
   py::native_enum<IkStatus>(m, "IkStatus", "enum.Enum", "Why joints do or do not meet a pose.")
       .value("ok", IkStatus::ok)
@@ -126,10 +136,7 @@ void bind_results(py::module_& m) {
       .def_readonly("iterations", &IkResult::iterations)
       .def_readonly("limit_margin", &IkResult::limit_margin, "rad or m from the nearest joint limit.")
       .def_readonly("blocked", &IkResult::blocked, "Indices of the joints that a limit holds back.")
-      .def("__repr__", [](const IkResult& r) {
-        return std::string("<IkResult ") + name_of(r.status) + ": " + std::to_string(1e3 * r.position_error) +
-               " mm, " + std::to_string(r.angle_error) + " rad>";
-      });
+      .def("__repr__", [](const IkResult& r) { return "<IkResult " + summary(r) + ">"; });
   py::class_<IkBatch>(m, "IkBatch", "What solve_many found for N poses.")
       .def_property_readonly(
           "joints", [](const IkBatch& b) { return from_matrix(b.joints); }, "(N, n) rad or m.")
@@ -198,6 +205,12 @@ void bind_ik_options(py::module_& m) {
       .def_readwrite("angle_tolerance", &IkOptions::angle_tolerance, "rad, > 0.")
       .def_readwrite("angle_weight", &IkOptions::angle_weight,
                      "m per rad: closest is position + weight * angle.")
+      .def_property(
+          "weight", [](const IkOptions& o) { return from_vector(o.weight); },
+          [](IkOptions& o, const Array& weight) { o.weight = to_vector6(weight, "weight"); },
+          "(6,) how much of the pose counts, in its own axes: moving along x, y, z, turning about x, y, z; 0 "
+          "is "
+          "free.")
       .def_readwrite("iteration_limit", &IkOptions::iteration_limit, "Of one solve, all restarts together.")
       .def_readwrite("max_step", &IkOptions::max_step, "rad or m: how far solve may leave the seed.")
       .def_readwrite("diagnose", &IkOptions::diagnose,
@@ -251,7 +264,7 @@ IkBatch solve_many(const InverseKinematics& ik, const Array& poses, const std::o
 }
 
 JointTrajectory follow(const InverseKinematics& ik, const py::object& path, const std::optional<Array>& times,
-                       const std::optional<FollowOptions>& options, const py::kwargs& fields) {
+                       const std::optional<FollowOptions>& options, bool strict, const py::kwargs& fields) {
   const bool is_trajectory = py::hasattr(path, "pose") && py::hasattr(path, "time");
   if (!is_trajectory && !times)
     throw InvalidArgument("times: missing; pass a trajectory with .time and .pose, or poses and times.");
@@ -259,8 +272,18 @@ JointTrajectory follow(const InverseKinematics& ik, const py::object& path, cons
   const Eigen::VectorXd seconds = to_vector(times ? *times : path.attr("time").cast<Array>(), "times");
   const FollowOptions chosen = with_fields(options, fields);
   InverseKinematics own = ik;
-  const py::gil_scoped_release release;
-  return own.follow(seconds, poses, chosen);
+  JointTrajectory joints;
+  {
+    const py::gil_scoped_release release;
+    joints = own.follow(seconds, poses, chosen);
+  }
+  if (strict && !joints.report.complete()) raise_ik_error(joints.report.summary(), py::cast(joints.report));
+  return joints;
+}
+
+IkBranches branches(const InverseKinematics& ik, const Array& pose, const std::optional<Array>& seed,
+                    double apart, int tries) {
+  return {ik.arm(), to_pose(pose, "pose"), seed_or_middle(ik, seed), ik.options(), {apart, tries}};
 }
 
 void bind_solver(py::module_& m) {
@@ -279,23 +302,33 @@ The fields of IkOptions are taken as keywords too. Every answer depends on the a
           "(n,) the middle of each joint's range: the seed where none is given.")
       .def(
           "solve",
-          [](InverseKinematics& ik, const Array& pose, const std::optional<Array>& seed) {
+          [](InverseKinematics& ik, const Array& pose, const std::optional<Array>& seed, bool strict) {
             const IkResult result = ik.solve(to_pose(pose, "pose"), seed_or_middle(ik, seed));
             refuse_invalid(result, "pose");
+            if (strict && !result.ok()) raise_ik_error(summary(result), py::cast(result));
             return result;
           },
-          py::arg("pose"), py::arg("seed") = py::none(),
+          py::arg("pose"), py::arg("seed") = py::none(), py::arg("strict") = false,
           R"(Joints (n,) whose tip is at the pose (4, 4), or as close as can be, with a status that says why.
 
-Never raises because a pose is out of reach; raises InvalidArgument for a pose that is none.)")
+Never raises because a pose is out of reach, unless strict: then errors.IkError with this result as its
+`report`. Raises InvalidArgument for a pose that is none.)")
+      .def("branches", &branches, py::arg("pose"), py::arg("seed") = py::none(), py::kw_only(),
+           py::arg("apart") = BranchOptions{}.apart, py::arg("tries") = BranchOptions{}.tries,
+           R"(Iterate over the different joints that meet the pose (4, 4), each an IkResult; the seed's first.
+
+Some joint of each differs from every one before by `apart` [rad or m]; the iteration ends when `tries` descents
+from random joints found no more. Give the one you choose to follow(start=...).)")
       .def("solve_many", &solve_many, py::arg("poses"), py::arg("seed") = py::none(),
            "solve() for each of the poses (N, 4, 4), each begun at the last joints that met theirs. Releases "
            "the GIL.")
       .def("follow", &follow, py::arg("path"), py::arg("times") = py::none(), py::arg("options") = py::none(),
+           py::arg("strict") = false,
            R"(Joints for a whole path, with a report for every pose. Releases the GIL.
 
 `path` is a trajectory with .time (T,) and .pose (T, 4, 4), or the poses themselves with times=(T,) in s.
-The fields of FollowOptions are taken as keywords too.)");
+The fields of FollowOptions are taken as keywords too. strict: raise errors.IkError, with the report, unless
+every pose is met.)");
 }
 
 }  // namespace
@@ -305,18 +338,8 @@ void bind_kinematics(py::module_& m) {
   bind_results(m);
   bind_joint_trajectory(m);
   bind_ik_options(m);
+  bind_branches(m);
   bind_solver(m);
-  m.def(
-      "duration_factor",
-      [](const JointTrajectory& joints, const Array& velocity_limit, const Array& acceleration_limit) {
-        return duration_factor(joints, to_vector(velocity_limit, "velocity_limit"),
-                               to_vector(acceleration_limit, "acceleration_limit"));
-      },
-      py::arg("joints"), py::arg("velocity_limit"), py::arg("acceleration_limit"),
-      "The smallest factor on the duration with which the joints' spline stays within the limits (n,) and "
-      "(n,).");
-  m.def("stretched", &stretched, py::arg("joints"), py::arg("factor"),
-        "The same path, `factor` times as long from the same first time.");
 }
 
 }  // namespace dmp::python

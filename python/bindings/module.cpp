@@ -19,4 +19,6 @@ PYBIND11_MODULE(_core, m) {
   dmp::python::bind_learning(m);
   dmp::python::bind_file(m);
   dmp::python::bind_kinematics(m);
+  dmp::python::bind_joint_tracker(m);
+  dmp::python::bind_timing(m);
 }

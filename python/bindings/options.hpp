@@ -4,6 +4,7 @@
 #include <dmp/options.hpp>
 
 #include <optional>
+#include <string>
 
 namespace dmp::python {
 
@@ -12,5 +13,17 @@ namespace py = pybind11;
 /// `options` (the defaults if None) with some of its fields replaced. Throws InvalidArgument for an unknown
 /// one.
 DmpOptions options_with(const std::optional<DmpOptions>& options, const py::kwargs& fields);
+
+/// `options` (the defaults if None) with the keywords written over its fields.
+template <class Options>
+Options with_fields(const std::optional<Options>& options, const py::kwargs& fields) {
+  py::object object = py::cast(options.value_or(Options{}));
+  for (const auto& [name, value] : fields) {
+    if (!py::hasattr(object, name))
+      throw py::type_error("unknown option '" + py::str(name).cast<std::string>() + "'.");
+    py::setattr(object, name, py::reinterpret_borrow<py::object>(value));
+  }
+  return object.cast<Options>();
+}
 
 }  // namespace dmp::python

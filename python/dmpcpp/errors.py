@@ -1,8 +1,23 @@
 """The errors that dmpcpp raises on purpose; each message says what came, what was expected and what to do."""
 
-from dmpcpp._core import FileError, InvalidArgument
+from dmpcpp._core import FileError, IkResult, InvalidArgument, PathReport
 
-__all__ = ["FileError", "InvalidArgument", "MissingDependency"]
+__all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency"]
+
+
+class IkError(RuntimeError):
+    """``solve`` or ``follow``, asked to be strict, did not meet every pose.
+
+    Attributes
+    ----------
+    report : IkResult or PathReport
+        What it did come to, and why not further.
+    """
+
+    def __init__(self, message: str, report: IkResult | PathReport) -> None:
+        """Keep the report beside the message."""
+        super().__init__(message)
+        self.report = report
 
 
 class MissingDependency(ImportError):

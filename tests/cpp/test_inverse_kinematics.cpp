@@ -144,6 +144,106 @@ TEST_CASE("Out of reach, no random joints come closer than the answer") {
   }
 }
 
+TEST_CASE("Position only: the tip is where it should be, however it is turned") {
+  const Arm arm = seven_joints();
+  dmp::IkOptions options;
+  options.weight << 1, 1, 1, 0, 0, 0;
+  InverseKinematics ik(arm, options);
+  std::mt19937 random(11);
+  for (int k = 0; k < 300; ++k) {
+    Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+    pose.topLeftCorner<3, 3>() = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    const IkResult found = ik.solve(pose);
+    REQUIRE(found.ok());
+    REQUIRE(errors(arm, found.joints, pose).position <= 1e-6);
+    REQUIRE(found.angle_error == 0.0);
+  }
+}
+
+TEST_CASE("A free tool axis points where it should and spins as it likes") {
+  const Arm arm = seven_joints();
+  std::mt19937 random(12);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    dmp::IkOptions options;
+    options.weight[3 + axis] = 0.0;
+    InverseKinematics ik(arm, options);
+    int nearer = 0;
+    for (int k = 0; k < 200; ++k) {
+      Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+      pose.topLeftCorner<3, 3>() *= Eigen::AngleAxisd(2.5, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+      const IkResult found = ik.solve(pose, arms::random_joints(arm, random));
+      const Eigen::Matrix4d tip = arm.forward_kinematics(found.joints);
+      REQUIRE(found.ok());
+      REQUIRE((tip - pose).topRightCorner<3, 1>().norm() <= 1e-6);
+      REQUIRE((tip.col(axis) - pose.col(axis)).norm() <= 1.1e-6);
+      nearer += errors(arm, found.joints, pose).angle > 0.1 ? 1 : 0;
+    }
+    CHECK(nearer > 100);  // the spin is truly left alone
+  }
+}
+
+TEST_CASE("A free direction of the position leaves the tip on a line") {
+  const Arm arm = seven_joints();
+  dmp::IkOptions options;
+  options.weight << 1, 1, 0, 1, 1, 1;  // anywhere along the tool's z
+  InverseKinematics ik(arm, options);
+  std::mt19937 random(13);
+  for (int k = 0; k < 100; ++k) {
+    Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+    const Eigen::Vector3d along = pose.topLeftCorner<3, 1>().cross(pose.block<3, 1>(0, 1));
+    pose.topRightCorner<3, 1>() += 3.0 * along;  // beyond reach but for the line
+    const IkResult found = ik.solve(pose);
+    REQUIRE(found.ok());
+    const Eigen::Vector3d way = (arm.forward_kinematics(found.joints) - pose).topRightCorner<3, 1>();
+    REQUIRE(way.cross(along).norm() <= 1.1e-6);
+  }
+}
+
+TEST_CASE("What counts more is met better where not all can be had") {
+  const Arm arm = two_link();
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topRightCorner<3, 1>() = Eigen::Vector3d(1.0, 1.2, 0.0);  // reached only with the tool turned
+  dmp::IkOptions options;
+  options.weight << 1, 1, 1, 100, 100, 100;
+  const IkResult upright = InverseKinematics(arm, options).solve(pose);
+  options.weight << 100, 100, 100, 1, 1, 1;
+  const IkResult there = InverseKinematics(arm, options).solve(pose);
+  CHECK(upright.angle_error < 1e-3);
+  CHECK(there.position_error < 1e-3);
+  CHECK(upright.position_error > 0.1);
+  CHECK(there.angle_error > 0.1);
+}
+
+TEST_CASE("Weights that are none are refused by name") {
+  for (const int bad : {0, 1, 2, 3}) {
+    dmp::IkOptions options;
+    if (bad == 0) options.weight[2] = -1.0;
+    if (bad == 1) options.weight[4] = std::nan("");
+    if (bad == 2) options.weight.setZero();
+    if (bad == 3) options.weight[3] = options.weight[4] = 0.0;
+    CHECK_THROWS_WITH_AS(InverseKinematics(two_link(), options), doctest::Contains("options.weight"),
+                         dmp::InvalidArgument);
+  }
+  dmp::IkOptions options;
+  options.backend = dmp::IkBackend::kdl_lma;
+  options.weight[5] = 0.0;
+  CHECK_THROWS_WITH_AS(InverseKinematics(two_link(), options), doctest::Contains("bounded_lm"),
+                       dmp::InvalidArgument);
+}
+
+TEST_CASE("A stretched elbow that shall bend is singular under a short step") {
+  const Arm arm = two_link();
+  dmp::IkOptions options;
+  options.weight << 1, 1, 1, 0, 0, 0;
+  options.max_step = 0.05;
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose(0, 3) = 1.95;  // inwards along the stretched arm: elbow 0.45 rad, and no direction to set out
+  CHECK(InverseKinematics(arm, options).solve(pose, Eigen::Vector2d::Zero()).status == IkStatus::singular);
+  pose.topRightCorner<3, 1>() << 2.0 * std::cos(0.3), 2.0 * std::sin(0.3), 0.0;  // sideways it sets out well
+  CHECK(InverseKinematics(arm, options).solve(pose, Eigen::Vector2d::Zero()).status ==
+        IkStatus::step_limited);
+}
+
 TEST_CASE("Poses and seeds that are none are invalid_input and never throw") {
   const Arm arm = two_link();
   InverseKinematics ik(arm);

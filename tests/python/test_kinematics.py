@@ -1,5 +1,6 @@
 """dmp::kinematics from Python, on the arms that PyBullet ships: PyBullet and SciPy are the oracles."""
 
+import itertools
 import threading
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,6 +9,9 @@ import dmpcpp
 import numpy as np
 import pytest
 from dmpcpp import Arm, IkBackend, IkStatus, InverseKinematics, JointTrajectory
+from dmpcpp.errors import IkError
+
+from benchmarks import kinematics_causes as causes
 
 pybullet = pytest.importorskip("pybullet")
 pybullet_data = pytest.importorskip("pybullet_data")
@@ -289,3 +293,71 @@ def test_threads_may_share_a_solver_for_paths_and_batches(panda: Arm) -> None:
     assert len(answers) == 4
     for answer in answers:
         np.testing.assert_array_equal(answer, serial)
+
+
+def test_strict_raises_with_the_report_of_what_was_missed(panda: Arm) -> None:
+    ik = InverseKinematics(panda)
+    far = np.eye(4)
+    far[:3, 3] = [3.0, 0.0, 0.5]
+    assert ik.solve(far).status == IkStatus.out_of_reach
+    with pytest.raises(IkError, match="out_of_reach") as missed:
+        ik.solve(far, strict=True)
+    assert missed.value.report.position_error > 1.0
+    path = np.tile(far, (3, 1, 1))
+    with pytest.raises(IkError, match="0 of 3") as missed:
+        ik.follow(path, times=[0.0, 1.0, 2.0], strict=True, thorough=False)
+    assert missed.value.report.missed == [(0, 2)]
+    near = panda.forward_kinematics(ik.middle)
+    assert ik.solve(near, strict=True).ok
+
+
+def test_branches_are_different_joints_for_one_pose_and_start_a_path(arm: Arm) -> None:
+    ik = InverseKinematics(arm)
+    pose = arm.forward_kinematics(random_joints(arm, 1, seed=5)[0])
+    found = list(itertools.islice(ik.branches(pose, apart=1.0), 5))
+    assert len(found) >= 2
+    for i, branch in enumerate(found):
+        position, angle = pose_errors(arm.forward_kinematics(branch.joints), pose)
+        assert branch.ok and position < 1e-5 and angle.max() < 1e-5
+        assert all(np.abs(branch.joints - other.joints).max() >= 1.0 for other in found[:i])
+    joints = ik.follow(pose[None], times=[0.0], start=found[1].joints)
+    np.testing.assert_allclose(joints.position[0], found[1].joints, atol=1e-4)
+
+
+@pytest.mark.parametrize("weight", [[1, 1, 1, 0, 0, 0], [1, 1, 1, 1, 1, 0]])
+def test_a_path_that_leaves_turns_free_is_followed_whole(panda: Arm, weight: list[float]) -> None:
+    poses = feasible_path(panda, 50)
+    spin = np.eye(4)
+    spin[:2, :2] = [[-1, 0], [0, -1]]
+    joints = InverseKinematics(panda, weight=weight).follow(poses @ spin, times=np.linspace(0.0, 2.0, 50))
+    tips = panda.forward_kinematics(joints.position)
+    assert joints.report.complete
+    assert np.abs(tips[:, :3, 3] - poses[:, :3, 3]).max() < 1e-9
+    if weight[4]:
+        assert np.abs(tips[:, :3, 2] - poses[:, :3, 2]).max() < 1e-9
+    with pytest.raises(ValueError, match="weight"):
+        InverseKinematics(panda, weight=[1, 1, 1, 0, 0, 1])
+
+
+def test_what_is_not_finite_is_a_value_error(panda: Arm) -> None:
+    ik = InverseKinematics(panda)
+    pose = panda.forward_kinematics(ik.middle)
+    with pytest.raises(ValueError, match="pose"):
+        ik.solve(np.full((4, 4), np.nan))
+    with pytest.raises(ValueError, match="seed"):
+        ik.solve(pose, np.full(7, np.nan))
+    with pytest.raises(ValueError, match="pose"):
+        ik.branches(np.full((4, 4), np.nan))
+
+
+@pytest.mark.slow
+def test_unreachable_poses_are_met_as_closely_as_500_restarts_and_their_cause_is_named(arm: Arm) -> None:
+    for kind in ("beyond", "limits", "step", "singular"):
+        random = np.random.default_rng(11)
+        for case in itertools.islice(causes.cases(arm, kind, random), 2):
+            result = causes.answer(arm, case)
+            assert result.status.name == case.status
+            assert causes.held(arm, case, result)
+            if kind in ("beyond", "limits"):
+                known = causes.closest_of_restarts(arm, case.pose, 500, random)
+                assert causes.distance(result) <= 1.01 * known

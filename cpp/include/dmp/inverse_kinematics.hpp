@@ -26,7 +26,12 @@ struct IkOptions {
   IkBackend backend = IkBackend::bounded_lm;
   double position_tolerance = 1e-6;  ///< m, > 0
   double angle_tolerance = 1e-6;     ///< rad, > 0
-  double angle_weight = 0.1;   ///< m per rad, > 0: "closest" is position error + angle_weight * angle error
+  double angle_weight = 0.1;  ///< m per rad, > 0: "closest" is position error + angle_weight * angle error
+  /// What of the pose counts, in the axes of the wanted pose: moving along x, y, z, then turning about x, y,
+  /// z. 0: that direction is free, and left out of the errors; otherwise how much it counts for "closest".
+  /// {1,1,1,0,0,0} is position only; {1,1,1,1,1,0} leaves a tool free to spin about its z axis. Of the turns
+  /// none, one or all may be free. Not for the KDL backends.
+  Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Ones();
   int iteration_limit = 2000;  ///< of one solve, all restarts together, > 0; the budget is not a time
   /// rad or m, > 0: how far solve() may leave the seed with any joint.
   double max_step = std::numeric_limits<double>::infinity();

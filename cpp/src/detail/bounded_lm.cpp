@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "box_step.hpp"
-#include "pose_error.hpp"
 
 namespace dmp::detail {
 namespace {
@@ -16,15 +15,11 @@ constexpr int patience = 8;  // iterations in which the squared error must halve
 constexpr int closing_iterations = 200;
 constexpr double least_norm = 1e-9;  // m or rad, below which a norm is not divided by
 
-double distance_of(const Vector6& error, double angle_weight) {
-  return error.head<3>().norm() + angle_weight * error.tail<3>().norm();
-}
-
-// The squares w^2 e^2 that touch the norms |p| + a |r| from above at the present error.
-Vector6 norm_weights(const Vector6& error, double angle_weight) {
+// The squares w^2 e^2 that touch the norms |p| + |r| from above at the present error.
+Vector6 norm_weights(const Vector6& error) {
   Vector6 weight;
   weight.head<3>().setConstant(1.0 / std::sqrt(std::max(error.head<3>().norm(), least_norm)));
-  weight.tail<3>().setConstant(std::sqrt(angle_weight / std::max(error.tail<3>().norm(), least_norm)));
+  weight.tail<3>().setConstant(1.0 / std::sqrt(std::max(error.tail<3>().norm(), least_norm)));
   return weight;
 }
 
@@ -63,9 +58,7 @@ BoundedLm::BoundedLm(const ChainModel& model, const Tolerances& tolerances, int 
       tolerances_(tolerances),
       lower_(model.lower),
       upper_(model.upper),
-      iteration_limit_(iteration_limit) {
-  weight_ << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(tolerances.angle_weight);
-}
+      iteration_limit_(iteration_limit) {}
 
 bool BoundedLm::within_tolerances(const Vector6& miss) const {
   return miss.head<3>().norm() <= tolerances_.position && miss.tail<3>().norm() <= tolerances_.angle;
@@ -73,28 +66,38 @@ bool BoundedLm::within_tolerances(const Vector6& miss) const {
 
 Descent BoundedLm::descend(const Frame& target, const Joints& start, const Joints& lower, const Joints& upper,
                            int iteration_limit) const {
-  Descent at;
-  at.joints = start;
-  at.tip = chain_.forward(at.joints, at.jacobian);
-  at.error = pose_error(target, at.tip);
-  double cost = weight_.cwiseProduct(at.error).squaredNorm();
+  Descent begin;
+  begin.joints = start;
+  begin.tip = chain_.forward(begin.joints, begin.jacobian);
+  return descend_from(begin, target, lower, upper, iteration_limit);
+}
+
+Descent BoundedLm::descend_from(const Descent& end, const Frame& target, const Joints& lower,
+                                const Joints& upper, int iteration_limit) const {
+  const PoseGoal& goal = tolerances_.goal;
+  Descent at = end;
+  at.iterations = 0;
+  at.stalled = false;
+  at.error = goal.error(target, at.tip);
+  Vector6 weighted = goal.weighted(target, at.error);
+  double cost = weighted.squaredNorm();
   Damping damping;
   Progress progress(cost);
   Jacobian jacobian;
   while (!(at.converged = within_tolerances(at.error)) && !at.stalled && at.iterations < iteration_limit) {
     ++at.iterations;
     const Box box = {(lower - at.joints).cwiseMax(-trust_region), (upper - at.joints).cwiseMin(trust_region)};
-    const Joints step =
-        box_step(weight_.asDiagonal() * at.jacobian, weight_.cwiseProduct(at.error), damping.at(cost), box);
+    const Joints step = box_step(goal.weighted(target, at.jacobian), weighted, damping.at(cost), box);
     const Joints joints = (at.joints + step).cwiseMax(lower).cwiseMin(upper);
     const Frame tip = chain_.forward(joints, jacobian);
-    const Vector6 miss = pose_error(target, tip);
-    const double next_cost = weight_.cwiseProduct(miss).squaredNorm();
+    const Vector6 miss = goal.error(target, tip), next_weighted = goal.weighted(target, miss);
+    const double next_cost = next_weighted.squaredNorm();
     if (next_cost < cost) {
       at.joints = joints;
       at.tip = tip;
       at.error = miss;
       at.jacobian = jacobian;
+      weighted = next_weighted;
       cost = next_cost;
       damping.success();
     } else {
@@ -109,16 +112,19 @@ Joints BoundedLm::closest(const Frame& target, const Joints& start, const Joints
                           const Joints& upper) const {
   Joints best = start;
   Jacobian jacobian, next_jacobian;
-  Vector6 miss = pose_error(target, chain_.forward(best, jacobian));
-  double distance = distance_of(miss, tolerances_.angle_weight), damping = 1e-2;
+  const PoseGoal& goal = tolerances_.goal;
+  const auto length = [](const Vector6& way) { return way.head<3>().norm() + way.tail<3>().norm(); };
+  Vector6 miss = goal.weighted(target, goal.error(target, chain_.forward(best, jacobian)));
+  double distance = length(miss), damping = 1e-2;
   for (int idle = 0, i = 0; idle < patience && i < closing_iterations; ++i) {
-    const Vector6 weight = norm_weights(miss, tolerances_.angle_weight);
+    const Vector6 weight = norm_weights(miss);
+    const Jacobian scaled = weight.asDiagonal() * goal.weighted(target, jacobian);
     const Box box = {(lower - best).cwiseMax(-trust_region), (upper - best).cwiseMin(trust_region)};
-    const Joints step = box_step(weight.asDiagonal() * jacobian, weight.cwiseProduct(miss), damping, box);
+    const Joints step = box_step(scaled, weight.cwiseProduct(miss), damping, box);
     const Joints joints = (best + step).cwiseMax(lower).cwiseMin(upper);
-    const Vector6 next = pose_error(target, chain_.forward(joints, next_jacobian));
-    const double next_distance = distance_of(next, tolerances_.angle_weight);
-    const Vector6 left = weight.cwiseProduct(miss - jacobian * step);
+    const Vector6 next = goal.weighted(target, goal.error(target, chain_.forward(joints, next_jacobian)));
+    const double next_distance = length(next);
+    const Vector6 left = weight.cwiseProduct(miss) - scaled * step;
     const double promised = 0.5 * (weight.cwiseProduct(miss).squaredNorm() - left.squaredNorm());
     damping *=
         distance - next_distance > 0.5 * promised ? 0.3 : 4.0;  // a promise half kept is a step too far

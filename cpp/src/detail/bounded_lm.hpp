@@ -3,14 +3,15 @@
 #include <kdl/chainiksolver.hpp>
 
 #include "flat_chain.hpp"
+#include "pose_goal.hpp"
 
 namespace dmp::detail {
 
-/// When a pose counts as met, and what an angle weighs against a position where both can not be had.
+/// When a pose counts as met, and what of it counts where not all can be had.
 struct Tolerances {
-  double position = 1e-6;     ///< m
-  double angle = 1e-6;        ///< rad
-  double angle_weight = 0.1;  ///< m per rad
+  double position;  ///< m
+  double angle;     ///< rad
+  PoseGoal goal;
 };
 
 /// Where a descent ended.
@@ -18,7 +19,7 @@ struct Descent {
   Joints joints;
   Frame tip;          ///< at `joints`
   Jacobian jacobian;  ///< at `joints`
-  Vector6 error;      ///< from the tip at `joints` to the target, by pose_error
+  Vector6 error;      ///< from the tip at `joints` to the target, by the goal
   int iterations = 0;
   bool converged = false;  ///< both errors are within the tolerances
   bool stalled = false;    ///< the error stopped falling; if neither, the iterations ran out
@@ -42,19 +43,22 @@ class BoundedLm final : public KDL::ChainIkSolverPos {
   /// One descent from `start`, which lies in [lower, upper], of at most iteration_limit steps.
   Descent descend(const Frame& target, const Joints& start, const Joints& lower, const Joints& upper,
                   int iteration_limit) const;
-  /// From where a descent stalled to the joints nearby that are truly closest, by position_error +
-  /// angle_weight * angle_error. A sum of norms, not of squares: minimised by squares that are weighted anew
-  /// at every step with one over the norms.
+  /// The same from where another descent ended, whose tip and Jacobian are known.
+  Descent descend_from(const Descent& end, const Frame& target, const Joints& lower, const Joints& upper,
+                       int iteration_limit) const;
+  /// From where a descent stalled to the joints nearby that are truly closest, by PoseGoal::distance. A
+  /// sum of norms, not of squares: minimised by squares that are weighted anew at every step with one over
+  /// the norms.
   Joints closest(const Frame& target, const Joints& start, const Joints& lower, const Joints& upper) const;
 
   const FlatChain& chain() const { return chain_; }
+  const PoseGoal& goal() const { return tolerances_.goal; }
 
  private:
   bool within_tolerances(const Vector6& miss) const;
 
   FlatChain chain_;
   Tolerances tolerances_;
-  Vector6 weight_;
   Joints lower_, upper_;
   int iteration_limit_;
 };

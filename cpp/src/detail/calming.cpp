@@ -91,7 +91,7 @@ std::optional<Route> put_on(const PathTracker& tracker, const TargetPath& path, 
 
 std::optional<Route> calmed(const ChainModel& model, const PathTracker& tracker, const TargetPath& path,
                             const Route& route) {
-  if (model.lower.size() <= 6 || path.target.size() < 4) return std::nullopt;
+  if (!tracker.has_null_space() || path.target.size() < 4) return std::nullopt;
   const JointRange range(model);
   const Knots knots = knots_of(path.target.size());
   std::vector<Joints> band;

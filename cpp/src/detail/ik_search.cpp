@@ -2,16 +2,17 @@
 
 #include <algorithm>
 
-#include "pose_error.hpp"
 #include "random.hpp"
 
 namespace dmp::detail {
 namespace {
-constexpr std::size_t carried_on = 6;
+constexpr std::size_t carried_on = 24;
 }
 
 IkSearch::IkSearch(const ChainModel& model, const IkOptions& options)
-    : tolerances_{options.position_tolerance, options.angle_tolerance, options.angle_weight},
+    : tolerances_{options.position_tolerance,
+                  options.angle_tolerance,
+                  {options.weight, options.angle_weight}},
       iteration_limit_(options.iteration_limit),
       random_seed_(options.random_seed),
       range_(model),
@@ -21,11 +22,25 @@ IkSearch::IkSearch(const ChainModel& model, const IkOptions& options)
                                                     : std::make_unique<KdlBackend>(model, options)) {}
 
 void IkSearch::measure(const Frame& target, Found& found) {
-  const Vector6 error = pose_error(target, forward_(found.joints));
+  const Vector6 error = tolerances_.goal.error(target, forward_(found.joints));
   found.position_error = error.head<3>().norm();
   found.angle_error = error.tail<3>().norm();
-  found.distance = found.position_error + tolerances_.angle_weight * found.angle_error;
+  found.distance = tolerances_.goal.distance(target, error);
   found.ok = found.position_error <= tolerances_.position && found.angle_error <= tolerances_.angle;
+}
+
+IkResult IkSearch::result(const Frame& target, const Joints& joints, int iterations) {
+  Found found;
+  found.joints = joints;
+  measure(target, found);
+  IkResult result;
+  result.joints = joints;
+  result.status = found.ok ? IkStatus::ok : IkStatus::out_of_reach;
+  result.position_error = found.position_error;
+  result.angle_error = found.angle_error;
+  result.iterations = iterations;
+  result.limit_margin = range_.margin(joints);
+  return result;
 }
 
 Found IkSearch::attempt(const Frame& target, const Joints& start, const Joints& lower, const Joints& upper,

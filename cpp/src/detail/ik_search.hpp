@@ -15,7 +15,7 @@ namespace dmp::detail {
 struct Found {
   Joints joints;
   double position_error = 0.0, angle_error = 0.0;
-  double distance = std::numeric_limits<double>::infinity();  ///< position_error + angle_weight * angle_error
+  double distance = std::numeric_limits<double>::infinity();  ///< by PoseGoal
   int iterations = 0;
   int stalled = 0;  ///< descents that ended away from the pose because the error stopped falling
   bool ok = false;
@@ -33,6 +33,9 @@ class IkSearch {
   Found find_beyond_limits(const Frame& target, const Joints& seed);
   /// Fills in the errors of `found.joints`, by KDL.
   void measure(const Frame& target, Found& found);
+
+  /// Joints as a result, measured by KDL; ok or, for now, out_of_reach.
+  IkResult result(const Frame& target, const Joints& joints, int iterations);
 
   const JointRange& range() const { return range_; }
   const BoundedLm& lm() const { return lm_; }

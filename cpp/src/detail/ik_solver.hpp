@@ -7,19 +7,13 @@
 
 namespace dmp {
 
-namespace detail {
-/// Finite, with R in SO(3) to 1e-3 and the last row 0 0 0 1.
-bool is_rigid(const Eigen::Matrix4d& pose);
-/// The frame of a pose that is_rigid, with the nearest rotation.
-Frame rigid_frame(const Eigen::Matrix4d& pose);
-}  // namespace detail
-
 /// What an InverseKinematics owns. The arm comes first: the search refers to its model.
 struct InverseKinematics::Solver {
   Solver(Arm arm, const IkOptions& options);
   IkResult solve(const detail::Frame& target, const detail::Joints& seed);
   IkStatus diagnosis(const detail::Frame& target, const detail::Joints& seed, const detail::Found& best,
-                     const detail::Jacobian& jacobian, bool blocked);
+                     bool blocked);
+  bool stuck(const detail::Frame& target, const detail::Joints& q) const;
   PathReport report(const detail::TargetPath& path, const detail::Route& route, const FollowOptions& limits);
 
   Arm arm;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "box_step.hpp"
-#include "pose_error.hpp"
+#include "singularity.hpp"
 
 namespace dmp::detail {
 namespace {
@@ -12,6 +12,8 @@ namespace {
 constexpr double to_the_last_digits = 1e-11;  // m and rad
 constexpr int iterations_each = 60;
 constexpr double least_damping = 1e-12;
+constexpr double no_wish = 1e-12;      // m^2 or m rad, a gradient of 0
+constexpr double at_a_side = 1e-9;     // rad or m
 constexpr double near_a_limit = 0.05;  // rad or m, from where on a smaller margin counts against a route
 
 }  // namespace
@@ -28,47 +30,78 @@ PathTracker::PathTracker(const ChainModel& model, const Tolerances& tolerances)
     : range_(model),
       velocity_limit_(model.velocity_limit),
       tolerances_(tolerances),
-      lm_(model, {to_the_last_digits, to_the_last_digits, tolerances.angle_weight}, iterations_each) {}
+      lm_(model, {to_the_last_digits, to_the_last_digits, tolerances.goal}, iterations_each) {}
 
-double PathTracker::miss(const Vector6& error) const {
-  const double position = error.head<3>().norm(), angle = error.tail<3>().norm();
-  const bool met = position <= tolerances_.position && angle <= tolerances_.angle;
-  return met ? 0.0 : position + tolerances_.angle_weight * angle;
+bool PathTracker::met(const Vector6& error) const {
+  return error.head<3>().norm() <= tolerances_.position && error.tail<3>().norm() <= tolerances_.angle;
+}
+
+double PathTracker::miss(const Frame& target, const Vector6& error) const {
+  return met(error) ? 0.0 : lm_.goal().distance(target, error);
 }
 
 std::optional<Joints> PathTracker::meet(const Frame& target, const Joints& near, const Joints& lower,
                                         const Joints& upper) const {
   const Descent end = lm_.descend(target, near, lower, upper, iterations_each);
-  if (miss(end.error) > 0.0) return std::nullopt;
+  if (!met(end.error)) return std::nullopt;
   return end.joints;
 }
 
 bool PathTracker::meets(const Frame& target, const Joints& joints) const {
-  return miss(pose_error(target, lm_.chain().forward(joints))) == 0.0;
+  return met(lm_.goal().error(target, lm_.chain().forward(joints)));
+}
+
+// Where the null space leads from `at` within the box, away from the limits, while the tip goes to the
+// target.
+Joints PathTracker::pulled(const Descent& at, const Frame& target, const Box& box, double pull) const {
+  Vector6 error = lm_.goal().error(target, at.tip);
+  const double motion = lm_.goal().distance(target, error);
+  Joints away(at.joints.size());
+  for (Eigen::Index i = 0; i < away.size(); ++i) {
+    const double reach = range_.upper[i] - range_.lower[i];
+    const double offset =
+        std::isfinite(reach) ? (2.0 * at.joints[i] - range_.lower[i] - range_.upper[i]) / reach : 0.0;
+    away[i] = -pull * motion * offset * offset * offset;
+  }
+  away = away.cwiseMax(box.lower).cwiseMin(box.upper);
+  error -= at.jacobian * away;
+  const Jacobian rows = lm_.goal().weighted(target, at.jacobian);
+  return away + box_step(rows, lm_.goal().weighted(target, error), least_damping,
+                         {box.lower - away, box.upper - away});
 }
 
 Descent PathTracker::advance(const Descent& at, const Frame& target, const Joints& step, double pull) const {
   const Joints lower = range_.lower.cwiseMax(at.joints - step),
                upper = range_.upper.cwiseMin(at.joints + step);
-  Joints start = at.joints;
-  if (pull > 0.0 && miss(at.error) == 0.0) {
-    Vector6 error = pose_error(target, at.tip);
-    const double motion = error.head<3>().norm() + tolerances_.angle_weight * error.tail<3>().norm();
-    Joints away(start.size());
-    for (Eigen::Index i = 0; i < start.size(); ++i) {
-      const double reach = range_.upper[i] - range_.lower[i];
-      const double offset =
-          std::isfinite(reach) ? (2.0 * start[i] - range_.lower[i] - range_.upper[i]) / reach : 0.0;
-      away[i] = -pull * motion * offset * offset * offset;
-    }
-    away = (start + away).cwiseMax(lower).cwiseMin(upper) - start;
-    error -= at.jacobian * away;
-    const Joints from = start + away;
-    start = (from + box_step(at.jacobian, error, least_damping, {lower - from, upper - from}))
-                .cwiseMax(lower)
-                .cwiseMin(upper);
-  }
+  if (!(pull > 0.0) || !met(at.error)) return lm_.descend_from(at, target, lower, upper, iterations_each);
+  const Joints way = pulled(at, target, {lower - at.joints, upper - at.joints}, pull);
+  const Joints start = (at.joints + way).cwiseMax(lower).cwiseMin(upper);
   return lm_.descend(target, start, lower, upper, iterations_each);
+}
+
+IkStatus PathTracker::verdict(const Descent& at, const Descent& next, const Frame& target,
+                              const Joints& step) const {
+  if (met(next.error)) return IkStatus::ok;
+  if (!next.stalled && !next.converged) return IkStatus::budget;
+  if (is_singular(goal(), target, next.jacobian, next.error)) return IkStatus::singular;
+  const Joints wish = goal().wish(target, next.jacobian, next.error);
+  IkStatus status = IkStatus::out_of_reach;
+  for (Eigen::Index i = 0; i < wish.size(); ++i) {
+    if (std::abs(wish[i]) < no_wish) continue;
+    const double room = wish[i] > 0.0 ? range_.upper[i] - next.joints[i] : next.joints[i] - range_.lower[i];
+    if (std::abs(next.joints[i] - at.joints[i]) > step[i] - at_a_side) return IkStatus::step_limited;
+    if (room < at_a_side) status = IkStatus::limit_blocked;
+  }
+  return status;
+}
+
+Descent PathTracker::standing_at(const Joints& q) const {
+  Descent here;
+  here.joints = q;
+  here.tip = lm_.chain().forward(q, here.jacobian);
+  here.error.setZero();
+  here.converged = true;
+  return here;
 }
 
 void PathTracker::walk(const TargetPath& path, Descent at, std::size_t from, int direction, double pull,
@@ -80,7 +113,7 @@ void PathTracker::walk(const TargetPath& path, Descent at, std::size_t from, int
     const Joints& step = path.step[direction > 0 ? now - 1 : now];
     at = advance(at, path.target[now], step, pull);
     joints[now] = at.joints;
-    missed += miss(at.error);
+    missed += miss(path.target[now], at.error);
   }
 }
 
@@ -100,7 +133,7 @@ Route PathTracker::track(const TargetPath& path, std::size_t anchor, const Joint
   route.joints.resize(path.target.size());
   const Descent at = lm_.descend(path.target[anchor], joints, range_.lower, range_.upper, iterations_each);
   route.joints[anchor] = at.joints;
-  route.miss = miss(at.error);
+  route.miss = miss(path.target[anchor], at.error);
   walk(path, at, anchor, 1, pull, route.joints, route.miss);
   walk(path, at, anchor, -1, pull, route.joints, route.miss);
   rate(path, route);
@@ -114,7 +147,7 @@ Route PathTracker::track_from(const TargetPath& path, const Joints& start, doubl
   const Joints upper = range_.upper.cwiseMin(start + path.step.front());
   const Descent at = lm_.descend(path.target.front(), start, lower, upper, iterations_each);
   route.joints.front() = at.joints;
-  route.miss = miss(at.error);
+  route.miss = miss(path.target.front(), at.error);
   walk(path, at, 0, 1, pull, route.joints, route.miss);
   rate(path, route);
   return route;

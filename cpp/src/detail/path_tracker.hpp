@@ -1,9 +1,11 @@
 #pragma once
 
+#include <dmp/ik_status.hpp>
 #include <optional>
 #include <vector>
 
 #include "bounded_lm.hpp"
+#include "box_step.hpp"
 #include "joint_range.hpp"
 
 namespace dmp::detail {
@@ -38,18 +40,28 @@ class PathTracker {
   Route track(const TargetPath& path, std::size_t anchor, const Joints& joints, double pull) const;
   /// The closest joints to the first pose that `start` allows, then onwards.
   Route track_from(const TargetPath& path, const Joints& start, double pull) const;
+  /// From joints that met one pose to the next, each joint by at most `step`.
+  Descent advance(const Descent& at, const Frame& target, const Joints& step, double pull) const;
+  /// Why `next`, one step on from `at`, misses the target; ok if it does not. Takes no memory.
+  IkStatus verdict(const Descent& at, const Descent& next, const Frame& target, const Joints& step) const;
+  /// The descent that begins and ends at the joints q.
+  Descent standing_at(const Joints& q) const;
+  const PoseGoal& goal() const { return lm_.goal(); }
   /// Joints in [lower, upper] that meet the target, by a descent from `near`; none if it misses.
   std::optional<Joints> meet(const Frame& target, const Joints& near, const Joints& lower,
                              const Joints& upper) const;
   bool meets(const Frame& target, const Joints& joints) const;
+  /// Joints beyond those that the goal needs can move without the tip.
+  bool has_null_space() const { return range_.lower.size() > lm_.goal().dimension(); }
   /// Fills in what the joints of a route are worth, but for its miss.
   void rate(const TargetPath& path, Route& route) const;
 
  private:
-  Descent advance(const Descent& at, const Frame& target, const Joints& step, double pull) const;
+  Joints pulled(const Descent& at, const Frame& target, const Box& box, double pull) const;
   void walk(const TargetPath& path, Descent at, std::size_t from, int direction, double pull,
             std::vector<Joints>& joints, double& miss) const;
-  double miss(const Vector6& error) const;
+  bool met(const Vector6& error) const;
+  double miss(const Frame& target, const Vector6& error) const;
 
   JointRange range_;
   Joints velocity_limit_;

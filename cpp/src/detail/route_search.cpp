@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t thinned_size = 100;
 constexpr std::size_t refined = 4;  // routes of the thinned path that are tracked through every pose
 constexpr int iterations_for_a_start = 60;
-constexpr double ample_margin = 0.1;   // rad or m, with which a route needs no pull away from the limits
 constexpr double same_posture = 1e-3;  // rad or m
 
 // Every stride-th sample and the last one.
@@ -55,7 +54,7 @@ RouteSearch::RouteSearch(const ChainModel& model, const Tolerances& tolerances, 
 
 // Only an arm with joints to spare has a null space to move in.
 std::vector<double> RouteSearch::pulls() const {
-  if (range_.lower.size() > 6) return {0.0, 1.0, 4.0};
+  if (tracker_.has_null_space()) return {0.0, 1.0, 4.0};
   return {0.0};
 }
 
@@ -90,12 +89,26 @@ std::vector<RouteSearch::Candidate> RouteSearch::candidates(const TargetPath& pa
   return all;
 }
 
+// The pulls, the one that does best on the thinned path first.
+std::vector<double> RouteSearch::ranked_pulls(const TargetPath& path, const Joints& start) const {
+  const std::vector<double> all = pulls();
+  if (all.size() < 2) return all;
+  const TargetPath thinned = pick(path, thinned_samples(path.target.size()));
+  std::vector<std::pair<Route, double>> ranking;
+  for (const double pull : all) ranking.emplace_back(tracker_.track_from(thinned, start, pull), pull);
+  std::stable_sort(ranking.begin(), ranking.end(),
+                   [](const auto& a, const auto& b) { return a.first.better_than(b.first); });
+  std::vector<double> order;
+  for (const auto& [route, pull] : ranking) order.push_back(pull);
+  return order;
+}
+
 Route RouteSearch::from_start(const TargetPath& path, const Joints& start) {
   Route best;
-  for (const double pull : pulls()) {
+  for (const double pull : ranked_pulls(path, start)) {
     Route route = tracker_.track_from(path, start, pull);
     if (routes_tried_++ == 0 || route.better_than(best)) best = std::move(route);
-    if (best.complete() && best.margin > ample_margin) break;
+    if (best.complete()) break;
   }
   return best;
 }

@@ -27,6 +27,7 @@ class RouteSearch {
   std::vector<Joints> starts(const Frame& target);
   std::vector<Candidate> candidates(const TargetPath& path);
   std::vector<double> pulls() const;
+  std::vector<double> ranked_pulls(const TargetPath& path, const Joints& start) const;
   Route from_anchors(const TargetPath& path);
   void by_roadmap(const TargetPath& path, Route& best) const;
   void calm(const TargetPath& path, Route& best) const;

@@ -79,13 +79,17 @@ Eigen::Isometry3d z_to(const urdf::Vector3& axis) {
   return turn;
 }
 
-Eigen::Isometry3d origin_of(const urdf::Joint& joint) {
-  const urdf::Pose& pose = joint.parent_to_joint_origin_transform;
+Eigen::Isometry3d to_eigen(const urdf::Pose& pose) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   frame.translation() << pose.position.x, pose.position.y, pose.position.z;
   frame.linear() = Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z)
                        .normalized()
                        .toRotationMatrix();
+  return frame;
+}
+
+Eigen::Isometry3d origin_of(const urdf::Joint& joint) {
+  const Eigen::Isometry3d frame = to_eigen(joint.parent_to_joint_origin_transform);
   if (!frame.matrix().allFinite()) refuse(joint, "its <origin> is not finite.");
   return frame;
 }
@@ -97,20 +101,43 @@ KDL::Frame to_kdl(const Eigen::Isometry3d& frame) {
           KDL::Vector(p.x(), p.y(), p.z())};
 }
 
-KDL::Chain chain_of(const UrdfPath& path) {
+// What a link weighs, in its frame, and all that hangs from it but the way on; joints beside the way are at
+// 0.
+KDL::RigidBodyInertia bodies_of(const urdf::Link& link, const urdf::Joint* way_on) {
+  KDL::RigidBodyInertia sum = KDL::RigidBodyInertia::Zero();
+  if (link.inertial) {
+    const urdf::Inertial& body = *link.inertial;
+    const KDL::RotationalInertia about_centre(body.ixx, body.iyy, body.izz, body.ixy, body.ixz, body.iyz);
+    sum = to_kdl(to_eigen(body.origin)) * KDL::RigidBodyInertia(body.mass, KDL::Vector::Zero(), about_centre);
+  }
+  for (std::size_t i = 0; i < link.child_joints.size(); ++i)
+    if (link.child_joints[i].get() != way_on)
+      sum = sum + to_kdl(to_eigen(link.child_joints[i]->parent_to_joint_origin_transform)) *
+                      bodies_of(*link.child_links[i], nullptr);
+  return sum;
+}
+
+KDL::Chain chain_of(const UrdfPath& path, const urdf::ModelInterface& urdf) {
   KDL::Chain chain;
   KDL::Joint moving(KDL::Joint::Fixed);
-  Eigen::Isometry3d since = Eigen::Isometry3d::Identity();  // from the last moving joint to here
-  for (const auto& joint : path) {
-    since = since * origin_of(*joint);
-    if (!moves(*joint)) continue;
-    const Eigen::Isometry3d turn = z_to(joint->axis);
-    chain.addSegment(KDL::Segment(moving, to_kdl(since * turn)));
-    moving = KDL::Joint(joint->name,
-                        joint->type == urdf::Joint::PRISMATIC ? KDL::Joint::TransZ : KDL::Joint::RotZ);
-    since = turn.inverse();
+  Eigen::Isometry3d since = Eigen::Isometry3d::Identity();       // from the last moving joint to here
+  KDL::RigidBodyInertia bodies = KDL::RigidBodyInertia::Zero();  // of that way, seen from the joint
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const urdf::Joint& joint = *path[i];
+    since = since * origin_of(joint);
+    if (moves(joint)) {
+      const Eigen::Isometry3d turn = z_to(joint.axis);
+      const KDL::Frame tip = to_kdl(since * turn);
+      chain.addSegment(KDL::Segment(moving, tip, tip.Inverse() * bodies));
+      moving = KDL::Joint(joint.name,
+                          joint.type == urdf::Joint::PRISMATIC ? KDL::Joint::TransZ : KDL::Joint::RotZ);
+      since = turn.inverse();
+      bodies = KDL::RigidBodyInertia::Zero();
+    }
+    const urdf::Joint* const way_on = i + 1 < path.size() ? path[i + 1].get() : nullptr;
+    bodies = bodies + to_kdl(since) * bodies_of(*urdf.getLink(joint.child_link_name), way_on);
   }
-  chain.addSegment(KDL::Segment(moving, to_kdl(since)));
+  chain.addSegment(KDL::Segment(moving, to_kdl(since), to_kdl(since).Inverse() * bodies));
   return chain;
 }
 
@@ -216,7 +243,7 @@ ChainModel read_urdf(const std::string& text, const std::string& base, const std
   find_link(*urdf, model.tip, "tip");
   const UrdfPath path = path_between(*urdf, model.base, model.tip);
   read_joints(path, model);
-  model.chain = chain_of(path);
+  model.chain = chain_of(path, *urdf);
   for (const auto& joint : path) warn_of_inertia(*urdf->getLink(joint->child_link_name), model.warnings);
   model.urdf = text;
   return model;

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'Trajectory', 'assess', 'average', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'to_json']
+__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'assess', 'average', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     pass
 class FileError(OSError):
@@ -1340,6 +1340,14 @@ class IkOptions:
     @random_seed.setter
     def random_seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
         ...
+    @property
+    def weight(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) how much of the pose counts, in its own axes: moving along x, y, z, turning about x, y, z; 0 is free.
+        """
+    @weight.setter
+    def weight(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
 class FollowOptions:
     """
     How InverseKinematics.follow goes about a path.
@@ -1403,6 +1411,14 @@ class FollowOptions:
     @thorough.setter
     def thorough(self, arg0: bool) -> None:
         ...
+class IkBranches:
+    """
+    The different joints that meet one pose, one after the other.
+    """
+    def __iter__(self) -> IkBranches:
+        ...
+    def __next__(self) -> IkResult:
+        ...
 class InverseKinematics:
     """
     Joints for poses of an Arm's tip.
@@ -1411,18 +1427,27 @@ class InverseKinematics:
     """
     def __init__(self, arm: Arm, options: IkOptions | None = None, **kwargs) -> None:
         ...
-    def follow(self, path: typing.Any, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, options: FollowOptions | None = None, **kwargs) -> JointTrajectory:
+    def branches(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, *, apart: typing.SupportsFloat | typing.SupportsIndex = 0.3, tries: typing.SupportsInt | typing.SupportsIndex = 200) -> IkBranches:
+        """
+        Iterate over the different joints that meet the pose (4, 4), each an IkResult; the seed's first.
+        
+        Some joint of each differs from every one before by `apart` [rad or m]; the iteration ends when `tries` descents
+        from random joints found no more. Give the one you choose to follow(start=...).
+        """
+    def follow(self, path: typing.Any, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, options: FollowOptions | None = None, strict: bool = False, **kwargs) -> JointTrajectory:
         """
         Joints for a whole path, with a report for every pose. Releases the GIL.
         
         `path` is a trajectory with .time (T,) and .pose (T, 4, 4), or the poses themselves with times=(T,) in s.
-        The fields of FollowOptions are taken as keywords too.
+        The fields of FollowOptions are taken as keywords too. strict: raise errors.IkError, with the report, unless
+        every pose is met.
         """
-    def solve(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> IkResult:
+    def solve(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, strict: bool = False) -> IkResult:
         """
         Joints (n,) whose tip is at the pose (4, 4), or as close as can be, with a status that says why.
         
-        Never raises because a pose is out of reach; raises InvalidArgument for a pose that is none.
+        Never raises because a pose is out of reach, unless strict: then errors.IkError with this result as its
+        `report`. Raises InvalidArgument for a pose that is none.
         """
     def solve_many(self, poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> IkBatch:
         """
@@ -1439,6 +1464,101 @@ class InverseKinematics:
     @property
     def options(self) -> IkOptions:
         ...
+class TrackOptions:
+    """
+    How a JointTracker follows.
+    """
+    def __init__(self) -> None:
+        ...
+    @property
+    def angle_tolerance(self) -> float:
+        """
+        rad, > 0: when a pose counts as met.
+        """
+    @angle_tolerance.setter
+    def angle_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def angle_weight(self) -> float:
+        """
+        m per rad: closest weighs the angle so against the position.
+        """
+    @angle_weight.setter
+    def angle_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def limit_pull(self) -> float:
+        """
+        rad per m that the tip moves: how much joints to spare are drawn away from their limits.
+        """
+    @limit_pull.setter
+    def limit_pull(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def position_tolerance(self) -> float:
+        """
+        m, > 0: when a pose counts as met.
+        """
+    @position_tolerance.setter
+    def position_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def weight(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) how much of the pose counts, in its own axes; 0 is free. See IkOptions.weight.
+        """
+    @weight.setter
+    def weight(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+class JointTracker:
+    """
+    The differential inverse kinematics of a control loop: joints that go along with a pose that moves.
+    
+    Each track() begins at the joints of the one before and moves every joint by at most velocity limit x dt, within the
+    joint limits, as close to the pose as that allows. The fields of TrackOptions are taken as keywords too.
+    """
+    def __copy__(self) -> JointTracker:
+        ...
+    def __deepcopy__(self, memo: dict) -> JointTracker:
+        ...
+    def __init__(self, arm: Arm, start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: TrackOptions | None = None, **kwargs) -> None:
+        ...
+    def track(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex) -> IkStatus:
+        """
+        One step of dt seconds (> 0) towards the pose (4, 4).
+        
+        Returns IkStatus.ok, or why the pose is missed. Raises InvalidArgument, and changes nothing, for a pose or time that
+        is none.
+        """
+    @property
+    def angle_error(self) -> float:
+        """
+        rad, of the last step, by KDL.
+        """
+    @property
+    def arm(self) -> Arm:
+        ...
+    @property
+    def joints(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad or m; set it to where the robot stands after all, and its velocity becomes 0.
+        """
+    @joints.setter
+    def joints(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def options(self) -> TrackOptions:
+        ...
+    @property
+    def position_error(self) -> float:
+        """
+        m, of the last step, by KDL.
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad/s or m/s, of the last step.
+        """
 @typing.overload
 def assess(model: Dmp, demonstrations: collections.abc.Sequence[Demonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
     """
@@ -1509,6 +1629,15 @@ def spread(demonstrations: collections.abc.Sequence[PoseDemonstration], count: t
 def stretched(joints: JointTrajectory, factor: typing.SupportsFloat | typing.SupportsIndex) -> JointTrajectory:
     """
     The same path, `factor` times as long from the same first time.
+    """
+def time_optimal(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], effort_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, *, arm: Arm | None = None, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = [0.0, 0.0, -9.81]) -> JointTrajectory:
+    """
+    The same joints at other times: from rest to rest, close to as fast as the limits allow.
+    
+    Velocity [rad/s] and acceleration limits [rad/s^2], (n,) each, hold everywhere on the C2 spline that is returned;
+    effort limits (n,) [N m], for which the arm is needed, at its samples, by KDL's inverse dynamics with `gravity` (3,)
+    [m/s^2] in the base frame. Reachability analysis (TOPP-RA: Pham and Pham, IEEE Trans. Robotics 34(3), 2018). Raises
+    InvalidArgument for limits of other sizes or signs, or an effort with which the arm can not stand still.
     """
 @typing.overload
 def to_json(model: Dmp) -> str:

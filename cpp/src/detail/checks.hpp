@@ -1,0 +1,22 @@
+#pragma once
+
+#include <dmp/arm.hpp>
+#include <string>
+
+#include "flat_chain.hpp"
+
+namespace dmp::detail {
+
+/// InvalidArgument unless value > 0.
+void check_positive(double value, const std::string& name);
+/// InvalidArgument unless the solvers' memory of fixed size holds the arm's joints.
+void check_capacity(const Arm& arm);
+/// InvalidArgument unless the weights are finite and >= 0, some of them > 0, and not just two turns free.
+void check_weight(const Vector6& weight);
+
+/// Finite, with R in SO(3) to 1e-3 and the last row 0 0 0 1.
+bool is_rigid(const Eigen::Matrix4d& pose);
+/// The frame of a pose that is_rigid, with the nearest rotation.
+Frame rigid_frame(const Eigen::Matrix4d& pose);
+
+}  // namespace dmp::detail
