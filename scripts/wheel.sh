@@ -72,7 +72,7 @@ for python in "${pythons[@]}"; do
   rm -rf "$work/plain" && mkdir "$work/plain"
   "$python" -m venv --clear "$work/build"
   PATH="$work/tools/bin:$PATH" "$work/build/bin/pip" wheel -q --disable-pip-version-check --no-deps -w "$work/plain" "$dist"/*.tar.gz
-  PATH="$work/tools/bin:$PATH" "$work/tools/bin/auditwheel" -q repair -w "$work/repaired" "$work/plain"/*.whl
+  PATH="$work/tools/bin:$PATH" "$work/tools/bin/auditwheel" repair -w "$work/repaired" "$work/plain"/*.whl >"$work/repair.log" 2>&1 || { cat "$work/repair.log" >&2; exit 1; }
   wheel=$(ls -t "$work/repaired"/*.whl | head -n 1)
   add_licences "$wheel" "$work/unpacked"
   wheel=$dist/$(basename "$wheel")

@@ -99,6 +99,11 @@ Rotations rotations_of(const Poses& poses) {
   return rotations;
 }
 
+void require_finite(const Eigen::VectorXd& times) {
+  for (Index k = 0; k < times.size(); ++k)
+    if (!std::isfinite(times[k])) throw InvalidArgument(detail::indexed("times", k) + ": not finite.");
+}
+
 }  // namespace
 
 Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions)
@@ -107,6 +112,7 @@ Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& posi
       spline_(time_, position_) {}
 
 Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
+  require_finite(times);
   Spline::Samples samples = spline_.sample(times);
   return {times, std::move(samples.value), std::move(samples.first), std::move(samples.second)};
 }
@@ -158,6 +164,7 @@ OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::Vecto
 }
 
 OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times) const {
+  require_finite(times);
   const Spline::Samples samples = spline_.sample(times);
   OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
   result.rotation.reserve(static_cast<std::size_t>(times.size()));

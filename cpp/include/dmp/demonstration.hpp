@@ -26,7 +26,8 @@ class DMP_EXPORT Demonstration {
   const Eigen::VectorXd& time() const noexcept { return time_; }  ///< (T) s, from 0
   const RowMatrix& position() const noexcept { return position_; }
 
-  /// Position, velocity and acceleration on the spline at times (n) in s from the start.
+  /// Position, velocity and acceleration on the spline at times (n) in s from the start. Throws
+  /// InvalidArgument for a time that is not finite.
   Trajectory at(const Eigen::VectorXd& times) const;
 
   /// The same motion on the smoothing spline (Spline::smoothing): the noise is found in the data and taken
@@ -57,7 +58,8 @@ class DMP_EXPORT OrientationDemonstration {
   const Eigen::VectorXd& time() const noexcept { return time_; }  ///< (T) s, from 0
   const Rotations& rotation() const noexcept { return rotation_; }
 
-  /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start.
+  /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start. Throws
+  /// InvalidArgument for a time that is not finite.
   OrientationTrajectory at(const Eigen::VectorXd& times) const;
 
   /// The same motion with its quaternions on the smoothing spline, renormalised. The report has one number
