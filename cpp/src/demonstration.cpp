@@ -99,9 +99,13 @@ Rotations rotations_of(const Poses& poses) {
   return rotations;
 }
 
-void require_finite(const Eigen::VectorXd& times) {
+Spline::Samples sampled(const Spline& spline, const Eigen::VectorXd& times) {
   for (Index k = 0; k < times.size(); ++k)
     if (!std::isfinite(times[k])) throw InvalidArgument(detail::indexed("times", k) + ": not finite.");
+  Spline::Samples samples = spline.sample(times);
+  if (!samples.value.allFinite() || !samples.first.allFinite() || !samples.second.allFinite())
+    throw InvalidArgument("times: so far from the demonstration that the motion overflows.");
+  return samples;
 }
 
 }  // namespace
@@ -112,8 +116,7 @@ Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& posi
       spline_(time_, position_) {}
 
 Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
-  require_finite(times);
-  Spline::Samples samples = spline_.sample(times);
+  Spline::Samples samples = sampled(spline_, times);
   return {times, std::move(samples.value), std::move(samples.first), std::move(samples.second)};
 }
 
@@ -164,8 +167,7 @@ OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::Vecto
 }
 
 OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times) const {
-  require_finite(times);
-  const Spline::Samples samples = spline_.sample(times);
+  const Spline::Samples samples = sampled(spline_, times);
   OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
   result.rotation.reserve(static_cast<std::size_t>(times.size()));
   for (Index k = 0; k < times.size(); ++k) {

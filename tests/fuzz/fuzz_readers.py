@@ -3,6 +3,7 @@
 The first byte of an input picks the format. Run by scripts/fuzz.sh (atheris and libFuzzer's options).
 """
 
+import contextlib
 import sys
 import tempfile
 import warnings
@@ -34,10 +35,8 @@ def read(data: bytes) -> None:
     path.write_bytes(data[1:])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        try:
+        with contextlib.suppress(InvalidArgument, FileError):
             recordings.load(path, format=format, **STATED[format])
-        except (InvalidArgument, FileError):
-            pass
 
 
 if __name__ == "__main__":

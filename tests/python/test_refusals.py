@@ -26,7 +26,9 @@ DEMONSTRATIONS = {
     "PoseDmp": dmpcpp.PoseDemonstration(TIME, POSES),
 }
 KINDS = {"Dmp": dmpcpp.Run, "OrientationDmp": dmpcpp.OrientationRun, "PoseDmp": dmpcpp.PoseRun}
-MODELS = {kind: getattr(dmpcpp, kind).fit(demonstration, basis_count=5) for kind, demonstration in DEMONSTRATIONS.items()}
+MODELS = {
+    kind: getattr(dmpcpp, kind).fit(demonstration, basis_count=5) for kind, demonstration in DEMONSTRATIONS.items()
+}
 TWO_LINKS = """<robot name="two"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
   <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
     <limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
@@ -72,7 +74,14 @@ ENTRIES: dict[str, Entry] = {
     "InverseKinematics.solve_many": (dmpcpp.InverseKinematics(ARM).solve_many, {"poses": PATH, "seed": JOINTS}),
     "InverseKinematics.follow": (
         lambda path, times, **options: dmpcpp.InverseKinematics(ARM).follow(path, times, thorough=False, **options),
-        {"path": PATH, "times": TIME, "start": JOINTS, "max_step": 0.3, "position_tolerance": 1e-5, "angle_tolerance": 1e-5},
+        {
+            "path": PATH,
+            "times": TIME,
+            "start": JOINTS,
+            "max_step": 0.3,
+            "position_tolerance": 1e-5,
+            "angle_tolerance": 1e-5,
+        },
     ),
     "JointTrajectory.through": (
         dmpcpp.JointTrajectory.through,
@@ -129,7 +138,7 @@ def bad(good: Any) -> dict[str, Any]:
     """Return what may take the place of a good value, by name."""
     if isinstance(good, (int, float)):
         values = (np.nan, np.inf, -np.inf, 0, -1, 5e-324, 1e308, -1e308)
-        return {str(value): value for value in (*values, int(-(2**31)))} | {"a string": "many", "an array": np.ones(3)}
+        return {str(value): value for value in (*values, -(2**31))} | {"a string": "many", "an array": np.ones(3)}
     spoiled: dict[str, Any] = {"empty": good[:0], "shorter": good[:-1], "a number": 1.0, "text": "many"}
     spoiled["one dimension more"] = np.stack([good, good])[None]
     for value in (np.nan, np.inf, -np.inf, 0.0, -1.0, 5e-324, 1e308, -1e308):
@@ -206,7 +215,7 @@ def test_every_public_entry_is_tested_here():
         if inspect.isclass(thing) and thing.__module__ == "dmpcpp._core" and not issubclass(thing, Exception):
             methods = {m for m, f in vars(thing).items() if takes_arguments(f) and (m[0] != "_" or m == "__init__")}
             expected |= {f"{name}.{method}" for method in methods}
-        elif inspect.isbuiltin(thing) or callable(thing) and not inspect.isclass(thing):
+        elif inspect.isbuiltin(thing) or (callable(thing) and not inspect.isclass(thing)):
             expected.add(name)
     expected |= {f"so3.{name}" for name in vars(dmpcpp.so3) if name[0] != "_"}
     runs = {f"{run.__name__}.{call.split()[0]}" for run in KINDS.values() for call in RUN_CALLS}
