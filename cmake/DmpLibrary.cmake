@@ -16,7 +16,7 @@ function(dmp_add_library component)
   add_library(${target} ${DMP_${component}_SOURCES})
   add_library(dmp::${component} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
-    OUTPUT_NAME ${ARG_OUTPUT_NAME} EXPORT_NAME ${component}
+    OUTPUT_NAME ${ARG_OUTPUT_NAME} EXPORT_NAME ${component} DEFINE_SYMBOL "" INSTALL_RPATH "$ORIGIN"
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} PUBLIC cxx_std_17)

@@ -10,7 +10,9 @@ stop() {
 }
 
 debian_packages=(g++ cmake ninja-build libeigen3-dev liborocos-kdl-dev liburdfdom-dev nlohmann-json3-dev doctest-dev
-  python3.11 python3-venv python3-dev)
+  pkg-config python3.11 python3-venv python3-dev)
+# Used by scripts/check.sh, not by the tests.
+check_packages=(clang-22 libclang-rt-22-dev valgrind dpkg-dev fakeroot patchelf unzip)
 
 missing_packages() {
   local package
@@ -33,6 +35,13 @@ install_debian_packages() {
   "${apt[@]}" update -q >/dev/null || stop "apt-get update failed: is there a network?"
   # shellcheck disable=SC2086
   "${apt[@]}" install -y -q --no-install-recommends $missing >/dev/null || stop "apt-get could not install $missing"
+}
+
+# For scripts/check.sh: compilers with sanitizers and fuzzers, tools of packages.
+install_packages_of_checks() {
+  debian_packages=("${check_packages[@]}")
+  install_debian_packages
+  "$venv/bin/pip" install -q --disable-pip-version-check gcovr atheris pybind11
 }
 
 # Debian's own interpreter first: it has the headers and venv installed above.

@@ -58,16 +58,17 @@ void check_positive(const Eigen::VectorXd& limit, const std::string& name) {
 
 Arm::Arm(std::shared_ptr<const detail::ChainModel> model) : model_(std::move(model)) {}
 
-Arm Arm::from_urdf(const std::string& text, const std::string& base, const std::string& tip) {
-  return Arm(std::make_shared<const detail::ChainModel>(detail::read_urdf(text, base, tip)));
+Arm Arm::from_urdf(const std::string& text, const std::string& base, const std::string& tip,
+                   const std::string& folder) {
+  auto model = std::make_shared<detail::ChainModel>(detail::read_urdf(text, base, tip));
+  model->folder = folder;
+  return Arm(std::move(model));
 }
 
 Arm Arm::from_urdf_file(const std::string& path, const std::string& base, const std::string& tip) {
   const std::string text = read_text(path);
   try {
-    auto model = std::make_shared<detail::ChainModel>(detail::read_urdf(text, base, tip));
-    model->folder = std::filesystem::absolute(path).parent_path().string();
-    return Arm(std::move(model));
+    return from_urdf(text, base, tip, std::filesystem::absolute(path).parent_path().string());
   } catch (const InvalidArgument& error) {
     throw InvalidArgument("'" + path + "': " + error.what());
   }

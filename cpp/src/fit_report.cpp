@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "detail/learning.hpp"
 #include "detail/text.hpp"
@@ -199,9 +200,17 @@ void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOpti
                               " was found and learned with the motion. Derivatives::smooth takes it out.");
 }
 
+void require_tolerance(const Tolerance& tolerance) {
+  for (const auto& [name, value] :
+       {std::pair("position", tolerance.position), std::pair("angle", tolerance.angle)})
+    if (!(value > 0.0))
+      throw InvalidArgument(std::string("tolerance.") + name + ": " + number(value) + ", expected > 0.");
+}
+
 template <class Model, class Demonstrations>
 FitReport assessed(const Model& model, const Demonstrations& demonstrations, const Tolerance& tolerance) {
   if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
+  require_tolerance(tolerance);
   FitReport report;
   report.rmse = rmse_of(model, demonstrations, &report.largest);
   report.noise = VectorXd::Zero(report.rmse.size());

@@ -169,6 +169,8 @@ JointTrajectory JointTrajectory::through(const Eigen::VectorXd& times, const Row
   joints.position = positions;
   joints.joint_names = joint_names;
   detail::differentiate(joints);
+  if (!joints.velocity.allFinite() || !joints.acceleration.allFinite())
+    throw InvalidArgument("positions: so large, or times so close, that the velocities overflow.");
   return joints;
 }
 

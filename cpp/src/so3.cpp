@@ -168,6 +168,10 @@ Vector3d lifted_log(const Quaterniond& q, const Vector3d& previous) noexcept {
 
 Matrix3d left_jacobian(const Vector3d& v) noexcept {
   const double t = v.squaredNorm();
+  if (t > 1e40) {  // the terms in 1 / theta are below rounding: what is left is n n^T, and t may overflow
+    const Vector3d n = v.stableNormalized();
+    return n * n.transpose();
+  }
   double a = 0.0;  // (1 - cos theta) / theta^2
   double b = 0.0;  // (theta - sin theta) / theta^3
   if (t < 0.0025) {

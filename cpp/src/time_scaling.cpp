@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detail/spline_extremes.hpp"
+#include "detail/text.hpp"
 
 namespace dmp {
 
@@ -17,12 +18,14 @@ double duration_factor(const JointTrajectory& joints, const Eigen::VectorXd& vel
 
 JointTrajectory stretched(const JointTrajectory& joints, double factor) {
   if (!(factor > 0.0) || !std::isfinite(factor))
-    throw InvalidArgument("factor: " + std::to_string(factor) + ", expected > 0 and finite.");
+    throw InvalidArgument("factor: " + detail::number(factor) + ", expected > 0 and finite.");
   JointTrajectory result = joints;
   if (joints.time.size() > 0) result.time = joints.time[0] + factor * (joints.time.array() - joints.time[0]);
   result.velocity /= factor;
-  result.acceleration /= factor * factor;
+  result.acceleration = result.acceleration / factor / factor;
   result.report.velocity_ratio /= factor;
+  if (!result.time.allFinite() || !result.velocity.allFinite() || !result.acceleration.allFinite())
+    throw InvalidArgument("factor: " + detail::number(factor) + ", with which times or velocities overflow.");
   return result;
 }
 

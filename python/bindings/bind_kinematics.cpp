@@ -24,6 +24,20 @@ std::optional<Eigen::VectorXd> optional_vector(const std::optional<Array>& array
   return to_vector(*array, name);
 }
 
+// An arm is its URDF and its limits: what another process needs to make the same one.
+py::tuple arm_state(const Arm& arm) {
+  return py::make_tuple(arm.urdf(), arm.base(), arm.tip(), arm.folder(), from_vector(arm.lower()),
+                        from_vector(arm.upper()), from_vector(arm.velocity_limit()),
+                        from_vector(arm.effort_limit()));
+}
+
+Arm arm_of_state(const py::tuple& state) {
+  const auto text = [&](int i) { return state[i].cast<std::string>(); };
+  const auto limit = [&](int i) { return to_vector(state[i].cast<Array>(), "limits"); };
+  return Arm::from_urdf(text(0), text(1), text(2), text(3))
+      .with_limits({limit(4), limit(5), limit(6), limit(7)});
+}
+
 void bind_arm(py::module_& m) {
   py::class_<Arm>(m, "Arm",
                   R"(The serial chain of n free joints from the link `base` to the link `tip` of a robot.
@@ -32,7 +46,10 @@ An immutable value that any number of threads may use. Fixed joints are folded a
 master. Radians for turning joints, metres for sliding ones; poses are tip in base.)")
       .def_static(
           "from_urdf", &Arm::from_urdf, py::arg("text"), py::arg("base") = "", py::arg("tip") = "",
+          py::arg("folder") = "",
           R"(Read a URDF; base "" is the root link, tip "" the only link without children below the base.
+
+`folder` is where mesh paths are relative to.
 
 Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.)")
       .def_static(
@@ -69,7 +86,7 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
       .def_property_readonly("warnings", &Arm::warnings, "What is doubtful in the URDF, one sentence each.")
       .def_property_readonly("urdf", &Arm::urdf, "The text that was read.")
       .def_property_readonly("folder", &Arm::folder,
-                             "Folder of the file that was read; empty after from_urdf.")
+                             "Folder to which mesh paths are relative; empty if not told.")
       .def(
           "forward_kinematics",
           [](const Arm& arm, const Array& q) -> py::array_t<double> {
@@ -88,6 +105,7 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
           "manipulability",
           [](const Arm& arm, const Array& q) { return arm.manipulability(to_vector(q, "q")); }, py::arg("q"),
           "sqrt(det(J J^T)), 0 where the arm is singular (Yoshikawa 1985).")
+      .def(py::pickle(&arm_state, &arm_of_state))
       .def("__repr__", [](const Arm& arm) {
         return "<Arm '" + arm.name() + "': " + std::to_string(arm.joint_count()) + " joints from '" +
                arm.base() + "' to '" + arm.tip() + "'>";

@@ -12,7 +12,14 @@ Eigen::Vector3d to_vector3(const Array& array, const std::string& name) {
   const Eigen::VectorXd vector = to_vector(array, name);
   if (vector.size() != 3)
     throw InvalidArgument(name + ": " + std::to_string(vector.size()) + " numbers, expected 3.");
+  if (!vector.allFinite()) throw InvalidArgument(name + ": not finite, expected 3 finite numbers.");
   return vector;
+}
+
+Eigen::Matrix3d to_proper_rotation(const Array& array, const std::string& name) {
+  const Eigen::Matrix3d rotation = to_rotation(array, name);
+  so3::require_rotation(rotation, name);
+  return rotation;
 }
 
 }  // namespace
@@ -25,7 +32,7 @@ void bind_so3(py::module_& m) {
       "exp", [](const Array& v) { return from_rotation(so3::exp(to_vector3(v, "v"))); }, py::arg("v"),
       "The rotation (3, 3) by |v| rad about v (3,). Exact to rounding for every |v|.");
   so3.def(
-      "log", [](const Array& r) { return from_vector(so3::log(to_rotation(r, "r"))); }, py::arg("r"),
+      "log", [](const Array& r) { return from_vector(so3::log(to_proper_rotation(r, "r"))); }, py::arg("r"),
       "The rotation vector (3,) with exp(v) = r (3, 3) and |v| <= pi, exact to rounding, at pi too: there "
       "the sign "
       "with the first component that is not zero positive.");
@@ -37,7 +44,9 @@ void bind_so3(py::module_& m) {
       py::arg("v"), "J_l(v) (3, 3): omega = J_l(v) vd for R = exp(v), world frame.");
   so3.def(
       "distance",
-      [](const Array& a, const Array& b) { return so3::distance(to_rotation(a, "a"), to_rotation(b, "b")); },
+      [](const Array& a, const Array& b) {
+        return so3::distance(to_proper_rotation(a, "a"), to_proper_rotation(b, "b"));
+      },
       py::arg("a"), py::arg("b"), "The angle in rad (0 to pi) of the rotation between a and b (3, 3).");
   so3.def(
       "from_euler",
@@ -54,7 +63,7 @@ void bind_so3(py::module_& m) {
   so3.def(
       "to_euler",
       [](const Array& r, const std::string& convention) {
-        return from_vector(so3::to_euler(to_rotation(r, "r"), convention));
+        return from_vector(so3::to_euler(to_proper_rotation(r, "r"), convention));
       },
       py::arg("r"), py::arg("convention"),
       "The inverse of from_euler: angles (3,) in rad, the middle one in [-pi/2, pi/2] (three axes) or [0, "

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "motions.hpp"
 
@@ -87,4 +88,18 @@ TEST_CASE("keys that this version does not know are passed over") {
   const std::string text = to_json(Dmp::fit(reach(100, 1.0)));
   const Model model = from_json(replaced(text, "\"kind\"", "\"comment\": {\"by\": \"hand\"}, \"kind\""));
   CHECK(to_json(model) == text);
+}
+
+TEST_CASE("golden files of version 1 are read for ever and written again to the last byte") {
+  int read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(DMP_GOLDEN_MODELS "/v1")) {
+    if (entry.path().filename() == "motions.json") continue;
+    CAPTURE(entry.path().string());
+    std::ifstream file(entry.path());
+    std::stringstream text;
+    text << file.rdbuf();
+    CHECK(to_json(load(entry.path())) == text.str());
+    ++read;
+  }
+  CHECK(read == 27);
 }

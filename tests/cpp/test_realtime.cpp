@@ -35,8 +35,7 @@ TEST_CASE("the counter counts" * doctest::skip(!COUNTS_MALLOC)) {
   CHECK(kept[999] == 1.0);
 }
 
-TEST_CASE("a run of positions and orientations takes no memory in the loop, whatever happens on the way" *
-          doctest::skip(!COUNTS_MALLOC)) {
+TEST_CASE("a run of positions and orientations takes no memory in the loop, whatever happens on the way") {
   const PoseDemonstration demonstration = pose(300, 2.0);
   for (const Scaling scaling : {Scaling::none, Scaling::per_axis_relative, Scaling::rotation_dilation})
     for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear}) {
@@ -65,8 +64,7 @@ TEST_CASE("a run of positions and orientations takes no memory in the loop, what
     }
 }
 
-TEST_CASE("runs of positions in any number of dimensions and of orientations take none either" *
-          doctest::skip(!COUNTS_MALLOC)) {
+TEST_CASE("runs of positions in any number of dimensions and of orientations take none either") {
   Run run(Dmp::fit(helix(300, 2.0, .1, .2, 2)));
   const Eigen::VectorXd goal = run.goal() * 1.1;
   OrientationRun turn(OrientationDmp::fit(rotation(300, 2.0, 3.0)));

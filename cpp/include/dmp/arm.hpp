@@ -35,8 +35,10 @@ class DMP_EXPORT Arm {
   /// Throws InvalidArgument, naming the joint or link, when urdfdom refuses the text; when a link does not
   /// exist or several could be meant (the message lists them); when tip is not below base; when a joint on
   /// the way floats, is planar, has no axis, no limits, or lower >= upper; when a mimic joint's master is not
-  /// on the way; when links form a cycle. What can be lived with becomes a line in warnings().
-  static Arm from_urdf(const std::string& text, const std::string& base = "", const std::string& tip = "");
+  /// on the way; when links form a cycle. What can be lived with becomes a line in warnings(). `folder` is
+  /// where mesh paths are relative to.
+  static Arm from_urdf(const std::string& text, const std::string& base = "", const std::string& tip = "",
+                       const std::string& folder = "");
   /// The same from a file; keeps its folder, to which mesh paths are relative. Throws FileError if it can not
   /// be read.
   static Arm from_urdf_file(const std::string& path, const std::string& base = "",
@@ -57,7 +59,7 @@ class DMP_EXPORT Arm {
   const Eigen::VectorXd& effort_limit() const;          ///< (n) N m or N; +infinity where none is stated
   const std::vector<std::string>& warnings() const;     ///< what is doubtful in the URDF, one sentence each
   const std::string& urdf() const;                      ///< the text that was read
-  const std::string& folder() const;                    ///< of the file that was read; "" after from_urdf
+  const std::string& folder() const;                    ///< to which mesh paths are relative; "" if not told
 
   /// The pose of the tip in the base frame at the joints q (n), by KDL. Limits are not checked.
   /// Throws InvalidArgument if q has another size or is not finite.

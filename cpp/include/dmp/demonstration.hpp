@@ -29,7 +29,8 @@ class DMP_EXPORT Demonstration {
   /// Other positions (T x dims) at the same times: what the spline needs of the times alone is shared.
   Demonstration with(const RowMatrix& positions) const;
 
-  /// Position, velocity and acceleration on the spline at times (n) in s from the start.
+  /// Position, velocity and acceleration on the spline at times (n) in s from the start. Throws
+  /// InvalidArgument for a time that is not finite.
   Trajectory at(const Eigen::VectorXd& times) const;
 
   /// The same motion on the smoothing spline (Spline::smoothing): the noise is found in the data and taken
@@ -64,7 +65,8 @@ class DMP_EXPORT OrientationDemonstration {
   /// Other rotations (T) at the same times, as Demonstration::with.
   OrientationDemonstration with(const Rotations& rotations) const;
 
-  /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start.
+  /// Rotation, angular velocity and acceleration on the spline at times (n) in s from the start. Throws
+  /// InvalidArgument for a time that is not finite.
   OrientationTrajectory at(const Eigen::VectorXd& times) const;
 
   /// The same motion with its quaternions on the smoothing spline, renormalised. The report has one number

@@ -34,7 +34,7 @@ struct FitReport {
 };
 
 /// Holds a model against demonstrations, those that it was learned from or others. Throws InvalidArgument for
-/// none, or for another dimension.
+/// none, for another dimension, or for a tolerance that is not positive.
 DMP_EXPORT FitReport assess(const Dmp& dmp, const std::vector<Demonstration>& demonstrations,
                             const Tolerance& tolerance = {});
 DMP_EXPORT FitReport assess(const OrientationDmp& dmp,

@@ -1000,9 +1000,11 @@ class Arm:
     master. Radians for turning joints, metres for sliding ones; poses are tip in base.
     """
     @staticmethod
-    def from_urdf(text: str, base: str = '', tip: str = '') -> Arm:
+    def from_urdf(text: str, base: str = '', tip: str = '', folder: str = '') -> Arm:
         """
         Read a URDF; base "" is the root link, tip "" the only link without children below the base.
+        
+        `folder` is where mesh paths are relative to.
         
         Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.
         """
@@ -1011,7 +1013,11 @@ class Arm:
         """
         Read a URDF from a file and keep its folder. Raises FileError if it can not be read.
         """
+    def __getstate__(self) -> tuple:
+        ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def forward_kinematics(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1042,7 +1048,7 @@ class Arm:
     @property
     def folder(self) -> str:
         """
-        Folder of the file that was read; empty after from_urdf.
+        Folder to which mesh paths are relative; empty if not told.
         """
     @property
     def joint_count(self) -> int:

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Every proof of reliability, one row each: scripts/check.sh [NAME ...]; all of them unless named. docs/reliability.md
+# says what each shows. SECONDS_FUZZ sets the time of a fuzzer (60). Logs lie in build/checks.
+set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+logs=$root/build/checks
+mkdir -p "$logs"
+python=${PYTHON:-$root/.venv/bin/python}
+all=(release package matrix debian asan tsan rtsan valgrind fuzz coverage python-asan wheel)
+
+preset() { cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1"; }
+
+check_release() { preset release; }
+check_package() { cmake --preset release && cmake --build --preset release && tests/package/installed.sh build/release; }
+check_matrix() { tests/package/matrix.sh; }
+check_debian() { tests/package/debian.sh; }
+check_asan() { preset asan; }
+check_tsan() { preset tsan; }
+check_rtsan() { preset rtsan; }
+check_fuzz() { PYTHON=$python scripts/fuzz.sh "${SECONDS_FUZZ:-60}"; }
+check_wheel() { scripts/wheel.sh; }
+
+check_valgrind() {
+  cmake --preset release && cmake --build --preset release --target example_01_fit example_03_pose example_05_inverse_kinematics &&
+    (cd build/release/examples && for example in "01_fit" "03_pose" "05_inverse_kinematics $root/examples/arm.urdf"; do
+      # shellcheck disable=SC2086
+      valgrind -q --error-exitcode=9 --leak-check=full ./example_$example || exit 1
+    done)
+}
+
+check_coverage() {
+  preset coverage &&
+    "$python" -m gcovr -r . build/coverage --filter cpp/src --exclude-throw-branches --exclude-unreachable-branches \
+      --fail-under-line 95 --fail-under-branch 85 --print-summary
+}
+
+check_python-asan() {
+  cmake -S . -B build/python-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDMP_PYTHON=ON -DDMP_TESTS=OFF -DBUILD_SHARED_LIBS=OFF \
+    -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-omit-frame-pointer" -DPYBIND11_FINDPYTHON=ON \
+    -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" -DPython_EXECUTABLE="$python" && cmake --build build/python-asan &&
+    rm -rf build/python-asan/path && mkdir build/python-asan/path && cp -r python/dmpcpp build/python-asan/path/ &&
+    cp build/python-asan/python/bindings/_core*.so build/python-asan/path/dmpcpp/ &&
+    LD_PRELOAD="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
+      UBSAN_OPTIONS=halt_on_error=1 PYTHONPATH=build/python-asan/path "$python" -m pytest -q \
+      tests/python/test_dmp.py tests/python/test_so3.py tests/python/test_kinematics.py tests/python/test_model_files.py tests/python/test_refusals.py
+}
+
+names=("$@")
+[ ${#names[@]} -gt 0 ] || names=("${all[@]}")
+failed=0
+for name in "${names[@]}"; do
+  declare -F "check_$name" >/dev/null || { echo "check.sh: '$name' is unknown, expected one of ${all[*]}" >&2; exit 2; }
+done
+for name in "${names[@]}"; do
+  started=$SECONDS
+  if "check_$name" >"$logs/$name.log" 2>&1; then verdict=ok; else verdict=FAILED failed=1; fi
+  printf '%-12s %-7s %5d s  %s\n' "$name" "$verdict" $((SECONDS - started)) "$(tail -n 1 "$logs/$name.log" | cut -c 1-80)"
+done
+exit $failed

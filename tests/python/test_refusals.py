@@ -1,0 +1,231 @@
+"""Every number that can be given to the library, replaced by every bad one: refused by name, or answered finitely.
+
+The cases are generated: ENTRIES has one good call for each public entry that takes numbers, and a test holds it
+against the module. Not finite, empty or of the wrong size must be refused; 0, negative, denormal and huge may be
+answered where they have a meaning, but never with NaN. What was refused leaves no trace.
+"""
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+import dmpcpp
+import numpy as np
+import pytest
+from dmpcpp import InvalidArgument
+
+TIME = np.linspace(0.0, 1.0, 12)
+POSITION = np.c_[np.sin(TIME), TIME**2]
+ROTATION = np.array([dmpcpp.so3.exp([0.1 * t, 0.2, 0.3 * t]) for t in TIME])
+POSES = np.tile(np.eye(4), (12, 1, 1))
+POSES[:, :3, :3] = ROTATION
+POSES[:, :3, 3] = np.c_[0.4 + 0.1 * TIME, 0.1 * TIME, 0 * TIME]
+DEMONSTRATIONS = {
+    "Dmp": dmpcpp.Demonstration(TIME, POSITION),
+    "OrientationDmp": dmpcpp.OrientationDemonstration(TIME, ROTATION),
+    "PoseDmp": dmpcpp.PoseDemonstration(TIME, POSES),
+}
+KINDS = {"Dmp": dmpcpp.Run, "OrientationDmp": dmpcpp.OrientationRun, "PoseDmp": dmpcpp.PoseRun}
+MODELS = {
+    kind: getattr(dmpcpp, kind).fit(demonstration, basis_count=5) for kind, demonstration in DEMONSTRATIONS.items()
+}
+TWO_LINKS = """<robot name="two"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+  <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+  <joint name="k" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+  <joint name="f" type="fixed"><parent link="c"/><child link="d"/><origin xyz="0.5 0 0"/></joint></robot>"""
+ARM = dmpcpp.Arm.from_urdf(TWO_LINKS)
+JOINTS = np.array([0.3, 0.7])
+REACHED = ARM.forward_kinematics(JOINTS)
+PATH = ARM.forward_kinematics(JOINTS + np.outer(TIME, [0.3, 0.2]))
+TRAJECTORY = dmpcpp.JointTrajectory.through(TIME, JOINTS + np.outer(TIME, [0.3, 0.2]))
+
+Entry = tuple[Callable[..., Any], dict[str, Any]]
+ENTRIES: dict[str, Entry] = {
+    "Demonstration.__init__": (dmpcpp.Demonstration, {"times": TIME, "positions": POSITION}),
+    "OrientationDemonstration.__init__": (dmpcpp.OrientationDemonstration, {"times": TIME, "rotations": ROTATION}),
+    "PoseDemonstration.__init__": (dmpcpp.PoseDemonstration, {"times": TIME, "poses": POSES}),
+    "OrientationDemonstration.from_euler": (
+        lambda times, angles: dmpcpp.OrientationDemonstration.from_euler(times, angles, "ZYX"),
+        {"times": TIME, "angles": np.c_[TIME, TIME, TIME]},
+    ),
+    "Demonstration.at": (DEMONSTRATIONS["Dmp"].at, {"times": TIME}),
+    "OrientationDemonstration.at": (DEMONSTRATIONS["OrientationDmp"].at, {"times": TIME}),
+    "so3.exp": (dmpcpp.so3.exp, {"v": np.ones(3)}),
+    "so3.hat": (dmpcpp.so3.hat, {"v": np.ones(3)}),
+    "so3.left_jacobian": (dmpcpp.so3.left_jacobian, {"v": np.ones(3)}),
+    "so3.log": (dmpcpp.so3.log, {"r": ROTATION[3]}),
+    "so3.distance": (dmpcpp.so3.distance, {"a": ROTATION[3], "b": ROTATION[4]}),
+    "so3.from_euler": (lambda angles: dmpcpp.so3.from_euler(angles, "ZYX"), {"angles": np.ones(3)}),
+    "so3.to_euler": (lambda r: dmpcpp.so3.to_euler(r, "ZYX"), {"r": ROTATION[3]}),
+    "Arm.forward_kinematics": (ARM.forward_kinematics, {"q": JOINTS}),
+    "Arm.jacobian": (ARM.jacobian, {"q": JOINTS}),
+    "Arm.manipulability": (ARM.manipulability, {"q": JOINTS}),
+    "Arm.with_limits": (
+        ARM.with_limits,
+        {"lower": -JOINTS, "upper": 3 * JOINTS, "velocity": JOINTS, "effort": JOINTS},
+    ),
+    "InverseKinematics.__init__": (
+        lambda **options: dmpcpp.InverseKinematics(ARM, **options).solve(REACHED),
+        {"position_tolerance": 1e-6, "angle_tolerance": 1e-6, "angle_weight": 0.1, "max_step": 1.0},
+    ),
+    "InverseKinematics.solve": (dmpcpp.InverseKinematics(ARM).solve, {"pose": REACHED, "seed": JOINTS}),
+    "InverseKinematics.solve_many": (dmpcpp.InverseKinematics(ARM).solve_many, {"poses": PATH, "seed": JOINTS}),
+    "InverseKinematics.follow": (
+        lambda path, times, **options: dmpcpp.InverseKinematics(ARM).follow(path, times, thorough=False, **options),
+        {
+            "path": PATH,
+            "times": TIME,
+            "start": JOINTS,
+            "max_step": 0.3,
+            "position_tolerance": 1e-5,
+            "angle_tolerance": 1e-5,
+        },
+    ),
+    "JointTrajectory.through": (
+        dmpcpp.JointTrajectory.through,
+        {"times": TIME, "positions": np.c_[TIME, TIME**2]},
+    ),
+    "duration_factor": (
+        lambda **limits: dmpcpp.duration_factor(TRAJECTORY, **limits),
+        {"velocity_limit": np.ones(2), "acceleration_limit": np.ones(2)},
+    ),
+    "stretched": (lambda factor: dmpcpp.stretched(TRAJECTORY, factor), {"factor": 2.0}),
+    "spread": (lambda count: dmpcpp.spread([DEMONSTRATIONS["Dmp"]], count), {"count": 5}),
+    "assess": (
+        lambda **tolerance: dmpcpp.assess(MODELS["Dmp"], [DEMONSTRATIONS["Dmp"]], **tolerance),
+        {"position": 1e-3, "angle": 1e-2},
+    ),
+}
+for kind, model in MODELS.items():
+    ENTRIES |= {
+        f"{kind}.rollout": (model.rollout, {"goal": model.goal, "duration": 1.0, "dt": 0.1}),
+        f"{kind}.rollout_at": (model.rollout_at, {"times": TIME, "goal": model.goal, "duration": 1.0}),
+        f"{kind}.forcing": (model.forcing, {"phase": TIME}),
+        f"{kind}.activations": (model.activations, {"phase": TIME}),
+        f"{kind}.fit": (
+            lambda kind=kind, **options: getattr(dmpcpp, kind).fit(DEMONSTRATIONS[kind], **options).rollout(dt=0.1),
+            {
+                "alpha": 25.0, "beta": 6.0, "orientation_alpha": 25.0, "orientation_beta": 6.0, "alpha_x": 4.0,
+                "overlap": 0.5, "ridge": 1e-9, "goal_filter": 20.0, "tempo_filter": 0.1, "phase_stop": 1.0,
+                "basis_count": 5, "passes": 2,
+            },
+        ),
+    }  # fmt: skip
+
+RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
+    "step": lambda run, value: run.step(value),
+    "duration": lambda run, value: setattr(run, "duration", value),
+    "set_tracking_error": lambda run, value: run.set_tracking_error(value),
+    "goal": lambda run, value: setattr(run, "goal", value),
+    "start_from place": lambda run, value: run.start_from(value, velocity_of(run)),
+    "start_from velocity": lambda run, value: run.start_from(place_of(run), value),
+}
+NO_NUMBERS = {"Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
+              "FollowOptions.__init__", "average", "from_json", "load", "save", "to_json"}  # fmt: skip
+
+
+def place_of(run: Any) -> np.ndarray:
+    return next(getattr(run, name) for name in ("pose", "rotation", "position") if hasattr(run, name))
+
+
+def velocity_of(run: Any) -> np.ndarray:
+    return next(getattr(run, name) for name in ("twist", "angular_velocity", "velocity") if hasattr(run, name))
+
+
+def bad(good: Any) -> dict[str, Any]:
+    """Return what may take the place of a good value, by name."""
+    if isinstance(good, (int, float)):
+        values = (np.nan, np.inf, -np.inf, 0, -1, 5e-324, 1e308, -1e308)
+        return {str(value): value for value in (*values, -(2**31))} | {"a string": "many", "an array": np.ones(3)}
+    spoiled: dict[str, Any] = {"empty": good[:0], "shorter": good[:-1], "a number": 1.0, "text": "many"}
+    spoiled["one dimension more"] = np.stack([good, good])[None]
+    for value in (np.nan, np.inf, -np.inf, 0.0, -1.0, 5e-324, 1e308, -1e308):
+        one = np.array(good, dtype=float)
+        one.flat[one.size // 2] = value
+        spoiled |= {f"one {value}": one, f"all {value}": np.full_like(one, value)}
+    return spoiled
+
+
+def never(name: str) -> bool:
+    """Return whether a value of that name must always be refused."""
+    return any(word in name for word in ("nan", "text", "a string", "an array", "one dimension more"))
+
+
+def finite(answer: Any) -> bool:
+    """Return whether all numbers that an answer shows are numbers."""
+    if answer is None or isinstance(answer, (bool, str, list)):
+        return True
+    if isinstance(answer, (int, float, np.ndarray)):
+        return not np.isnan(answer).any()
+    shown = (getattr(answer, name) for name in dir(type(answer)) if isinstance(getattr(type(answer), name), property))
+    return all(finite(value) for value in shown if isinstance(value, (float, np.ndarray)))
+
+
+CASES = [(entry, argument) for entry, (_, arguments) in ENTRIES.items() for argument in arguments]
+
+
+@pytest.mark.parametrize(("entry", "argument"), CASES, ids=[f"{e}-{a}" for e, a in CASES])
+def test_a_bad_argument_is_refused_or_answered_finitely(entry, argument):
+    call, good = ENTRIES[entry]
+    assert finite(call(**good))
+    for name, value in bad(good[argument]).items():
+        try:
+            answer = call(**{**good, argument: value})
+        except (ValueError, TypeError):  # InvalidArgument, or numpy for what is no array
+            continue
+        assert not never(name), f"{entry}({argument}={name}) was taken"
+        assert finite(answer), f"{entry}({argument}={name}) answers NaN"
+
+
+def state(run: Any) -> list[bytes]:
+    return [
+        np.asarray(getattr(run, name)).tobytes()
+        for name in sorted(dir(type(run)))
+        if isinstance(getattr(type(run), name), property) and name != "status"
+    ] + [run.status.name.encode()]
+
+
+@pytest.mark.parametrize("call", RUN_CALLS)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_run_is_as_it_was_after_a_refusal(kind, call):
+    run = KINDS[kind](MODELS[kind])
+    run.step(0.3)
+    goods = {"goal": run.goal, "start_from place": place_of(run), "start_from velocity": velocity_of(run)}
+    for name, value in bad(goods.get(call, 0.5)).items():
+        trial = run.__copy__()
+        before = state(trial)
+        try:
+            RUN_CALLS[call](trial, value)
+        except (InvalidArgument, TypeError):
+            assert state(trial) == before, f"{call}({name}) was refused and changed the run"
+            continue
+        except FloatingPointError:  # huge but finite: the last finite state is kept and said
+            assert finite(trial)
+            continue
+        assert not never(name), f"{call}({name}) was taken"
+        assert finite(trial), f"{call}({name})"
+
+
+def test_every_public_entry_is_tested_here():
+    """Methods of models and runs that take nothing are left out by their signature."""
+    expected = set()
+    for name, thing in vars(dmpcpp._core).items():
+        if inspect.isclass(thing) and thing.__module__ == "dmpcpp._core" and not issubclass(thing, Exception):
+            methods = {m for m, f in vars(thing).items() if takes_arguments(f) and (m[0] != "_" or m == "__init__")}
+            expected |= {f"{name}.{method}" for method in methods}
+        elif inspect.isbuiltin(thing) or (callable(thing) and not inspect.isclass(thing)):
+            expected.add(name)
+    expected |= {f"so3.{name}" for name in vars(dmpcpp.so3) if name[0] != "_"}
+    runs = {f"{run.__name__}.{call.split()[0]}" for run in KINDS.values() for call in RUN_CALLS}
+    covered = ENTRIES.keys() | NO_NUMBERS | runs | {f"{run.__name__}.__init__" for run in KINDS.values()}
+    assert {entry for entry in expected if not entry.startswith("_")} <= covered
+
+
+def takes_arguments(function: Any) -> bool:
+    signature = getattr(function, "__doc__", None) or ""
+    if isinstance(function, staticmethod):
+        return True
+    first = signature.split("\n")[0]
+    return callable(function) and "(self:" in first and "," in first
