@@ -61,6 +61,13 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
             click.option(
                 "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
             ),
+            click.option(
+                "--simulator",
+                default="bullet",
+                show_default=True,
+                type=click.Choice(["bullet", "mujoco", "both"]),
+                help="Physics engine; with both the two are compared.",
+            ),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
         for option in reversed(options):
@@ -130,7 +137,7 @@ def imitate(
     """
     from dmpcpp import arms, motion, recordings
 
-    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "as_json")}
+    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "as_json")}
     stated = {name: value for name, value in options.items() if value is not None}
     if "columns" in stated:
         stated["columns"] = _columns(stated["columns"])
@@ -159,6 +166,7 @@ def _carry_out(
     out: Path,
     seed: int,
     basis_count: int | None,
+    simulator: str,
     as_json: bool,
     place: bool = True,
 ) -> None:
@@ -166,7 +174,9 @@ def _carry_out(
 
     refuse_file(out)
     with _progress(as_json) as progress:
-        run = imitation.imitate(recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress)
+        run = imitation.imitate(
+            recording, arm, seed=seed, place=place, basis_count=basis_count, simulator=simulator, progress=progress
+        )
     imitation.write(run, out)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
@@ -232,7 +242,8 @@ def _reason(run: Imitation) -> str:
     """What was verified, or which checks failed and what to do about the likely cause."""
     failed = {check.name: check for check in run.checks if not check.ok}
     if not failed:
-        return f"{run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}."
+        engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
+        return f"{run.log.arm.name}, {engines}, {run.log.mode}. {run.log.caveat}."
     first = next((name for name in _ADVICE if name in failed), next(iter(failed)))
     names = [first, *(name for name in failed if name != first)]
     numbers = ", ".join(f"{n} {failed[n].value:.3g} (limit {failed[n].limit:.3g} {failed[n].unit})" for n in names)

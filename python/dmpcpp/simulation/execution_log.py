@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -10,16 +10,12 @@ from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.metrics import StageErrors, compare
+from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.simulator import Contact
 from dmpcpp.simulation.verdict import Verdict, judge
 
-CAVEATS = {
-    "computed_torque": "the controller knows the simulated masses exactly; "
-    "model errors, delay and friction are not in it",
-    "position": "the engine's motors are constraints solved inside the step; "
-    "only kinematics and the torque cap are tested",
-}
-"""What each mode can not see."""
+_KNOWS_ALL = "the controller knows the simulated masses exactly; model errors, delay and friction are not in it"
+_MOTORS = "the engine's motors are constraints solved inside the step; only kinematics and the torque cap are tested"
 
 
 @dataclass(frozen=True)
@@ -51,7 +47,7 @@ class ExecutionLog:
     simulator : str
         Engine and version.
     mode : str
-        "computed_torque" or "position"; ``caveat`` says what the mode can not see.
+        "computed_torque", "position", "position_velocity" or "velocity"; ``caveat`` says what it can not see.
     rate : float
         Control steps a second [Hz].
     motion : slice
@@ -71,6 +67,8 @@ class ExecutionLog:
     tool_pose : (N, 4, 4)
         By the simulator's own kinematics.
     contacts : tuple of ContactEvent
+    disturbance : Disturbance
+        What the controller did not know.
     """
 
     arm: Arm
@@ -91,11 +89,15 @@ class ExecutionLog:
     desired_tool_pose: NDArray[np.float64]
     tool_pose: NDArray[np.float64]
     contacts: tuple[ContactEvent, ...]
+    disturbance: Disturbance = field(default_factory=Disturbance)
 
     @property
     def caveat(self) -> str:
         """What this mode can not see."""
-        return CAVEATS[self.mode]
+        if self.mode != "computed_torque":
+            return _MOTORS
+        disturbed = self.disturbance != Disturbance()
+        return f"the controller does not know of {self.disturbance}" if disturbed else _KNOWS_ALL
 
     @cached_property
     def errors(self) -> StageErrors:
