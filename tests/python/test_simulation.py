@@ -236,7 +236,7 @@ def test_a_sound_execution_fails_no_check(panda_log):
 
 
 def test_wrong_masses_are_caught_by_tracking_and_settling(panda):
-    log = simulation.execute(panda, swing(panda), simulator=WrongMasses)
+    log = simulation.execute(panda, swing(panda), kp=400.0, kd=40.0, simulator=WrongMasses)
     assert {"tracking_position_rmse", "tracking_position_max", "settle_error"} <= failed(log)
 
 
