@@ -12,33 +12,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli.group import FAILED, refuse_file
+from dmpcpp.cli.options import arm_options
+from dmpcpp.cli.tables import checks_table
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
     from dmpcpp.imitation import Imitation, Progress
     from dmpcpp.recordings import Recording
-
-
-def _arm_options(command: Callable[..., None]) -> Callable[..., None]:
-    options = (
-        click.option(
-            "--arm",
-            default="panda",
-            show_default=True,
-            metavar="NAME|FILE.urdf",
-            help="panda, iiwa, xarm6, or a URDF.",
-        ),
-        click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given."),
-        click.option(
-            "--tip",
-            metavar="LINK",
-            help="The link of a URDF that follows the motion; its only leaf unless given.",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
 
 
 def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -80,7 +61,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
 @click.command()
 @click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
 @click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
-@_arm_options
+@arm_options
 @_run_options("dmpcpp-demo")
 def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
     """Show the main job on a human motion that every installation has.
@@ -116,7 +97,7 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @click.option("--end", type=float, metavar="S", help="Use the motion up to here [s].")
 @click.option("--low-pass", type=float, metavar="HZ", help="Remove what is faster (zero-phase Butterworth).")
 @click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame.")
-@_arm_options
+@arm_options
 @_run_options("dmpcpp-imitation")
 def imitate(
     file: Path,
@@ -223,7 +204,7 @@ def _print(run: Imitation, out: Path) -> None:
         f"{run.slowdown:.2f} x the recorded duration"
     )
     console.print(_errors_table(run, Table))
-    console.print(_checks_table(run, Table))
+    console.print(checks_table(run.checks))
     console.print(
         "verified" if run.ok else "not verified", style="bold green" if run.ok else "bold red", markup=False, end=": "
     )
@@ -269,20 +250,5 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
         table.add_row(
             names[stage],
             *(f"{value:.2g}" if value < 0.01 else f"{value:.3f}" for value in (*lengths, *turns)),
-        )
-    return table
-
-
-def _checks_table(run: Imitation, table_type: type) -> Any:
-    from rich.markup import escape
-
-    table = table_type(title="checks", title_justify="left")
-    for title in ("", "check", "value", "limit", "unit", "where"):
-        table.add_column(title, justify="right" if title in ("value", "limit") else "left", no_wrap=title == "check")
-    for check in run.checks:
-        where = f"{check.time:.2f} s " if check.time is not None else ""
-        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
-        table.add_row(
-            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, escape(where + check.detail)
         )
     return table

@@ -15,6 +15,10 @@ from dmpcpp.simulation.simulator import Contact
 from dmpcpp.simulation.verdict import Verdict, judge
 
 _KNOWS_ALL = "the controller knows the simulated masses exactly; model errors, delay and friction are not in it"
+_RECORDED = (
+    "recorded on a real arm: where the tool was is the forward kinematics of the measured joints; the arm's "
+    "calibration, its flexing and contacts are not in the log"
+)
 _MOTORS = "the engine's motors are constraints solved inside the step; only kinematics and the torque cap are tested"
 
 
@@ -47,7 +51,8 @@ class ExecutionLog:
     simulator : str
         Engine and version.
     mode : str
-        "computed_torque", "position", "position_velocity" or "velocity"; ``caveat`` says what it can not see.
+        "computed_torque", "position", "position_velocity", "velocity", or "recorded" on a real arm;
+        ``caveat`` says what it can not see.
     rate : float
         Control steps a second [Hz].
     motion : slice
@@ -94,6 +99,8 @@ class ExecutionLog:
     @property
     def caveat(self) -> str:
         """What this mode can not see."""
+        if self.mode == "recorded":
+            return _RECORDED
         if self.mode != "computed_torque":
             return _MOTORS
         disturbed = self.disturbance != Disturbance()

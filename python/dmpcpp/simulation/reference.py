@@ -78,6 +78,17 @@ def sample(
     return Reference(steps[1:-1] / rate, position, velocity, acceleration, slice(before, before + inside))
 
 
+def states_at(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
+    """Position, velocity and acceleration at ``time`` (N,) s after the first sample, by the quintic.
+
+    Before the first sample and after the last the trajectory stands still there.
+    """
+    end = joints.time[-1] - joints.time[0]
+    position, velocity, acceleration = _quintic(joints, np.clip(time, 0.0, end) + joints.time[0])
+    moving = ((time >= 0.0) & (time <= end))[:, None]
+    return position, np.where(moving, velocity, 0.0), np.where(moving, acceleration, 0.0)
+
+
 def _states(
     joints: JointTrajectory, time: NDArray[np.float64], lead_in: float, lead_out: float, between: Between
 ) -> States:
