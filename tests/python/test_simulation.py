@@ -1,6 +1,7 @@
 """Execution under physics: accuracy, closed forms, and a verdict that catches one fault of each kind."""
 
 import json
+import subprocess
 import sys
 from dataclasses import replace
 from functools import partial
@@ -411,6 +412,14 @@ def test_nothing_is_printed(panda, capfd):
     simulation.execute(arms.find("xarm6"), swing(arms.find("xarm6"), 0.1))
     simulation.execute(panda, swing(panda, 0.1))
     assert capfd.readouterr() == ("", "")
+
+
+def test_nothing_is_printed_into_a_pipe_either():
+    program = (
+        "from dmpcpp import arms; from dmpcpp.simulation import Bullet\nwith Bullet(arms.find('panda'), 1e-3): pass"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
 def test_progress_goes_up_to_the_whole(panda):
