@@ -69,7 +69,7 @@ def _disturbed(arm: Arm, joints: Joints, engine: Engine, seed: int) -> Execution
 def two_engines(name: str) -> Iterator[Figure]:
     """PyBullet and MuJoCo, each with its own inverse dynamics, along one trajectory."""
     arm = arms.find(name)
-    scales = {"m": (_MM, "mm"), "rad": (_DEG, "deg"), "1": (100.0, "% of the limit")}
+    scales = {"m": (_MM, "mm"), "rad": (_DEG, "deg"), "1": (100.0, "% of the limit"), "checks": (1.0, "checks")}
     for motion, joints in motions(arm, name).items():
         logs = [simulation.execute(arm, joints, consistent=False, simulator=engine) for engine in (Bullet, MuJoCo)]
         for check in simulation.agreement(*logs):

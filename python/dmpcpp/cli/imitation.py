@@ -221,8 +221,7 @@ _ADVICE = {
 
 def _reason(run: Imitation) -> str:
     """What was verified, or which checks failed and what to do about the likely cause."""
-    engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
-    how = f"{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
+    how = _how(run)
     failed = {check.name: check for check in run.checks if not check.ok}
     if not failed:
         return how
@@ -230,6 +229,12 @@ def _reason(run: Imitation) -> str:
     names = [first, *(name for name in failed if name != first)]
     numbers = ", ".join(f"{n} {failed[n].value:.3g} (limit {failed[n].limit:.3g} {failed[n].unit})" for n in names)
     return f"{len(failed)} of {len(run.checks)} checks failed: {numbers}. {_ADVICE.get(first, '')}".rstrip() + f" {how}"
+
+
+def _how(run: Imitation) -> str:
+    """By what it was judged, and what that can not see."""
+    engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
+    return f"{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:

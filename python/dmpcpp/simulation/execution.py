@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation.bullet import Bullet
 from dmpcpp.simulation.control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
+from dmpcpp.simulation.control_loop import ControlLoop, Progress, Recorder, by_motors, by_torque
 from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation.reference import INTERPOLATIONS, Interpolation, Reference, sample
 from dmpcpp.simulation.sensing import Sensors
-from dmpcpp.simulation.simulator import Contact, Simulator
-
-Array = NDArray[np.float64]
-Progress = Callable[[int, int], None]
-
-_PROGRESS_STEPS = 100  # steps between two calls of the progress function
+from dmpcpp.simulation.simulator import Simulator
 
 
 def execute(
@@ -101,29 +95,39 @@ def execute(
     )
     with ExitStack() as engines:
         plant, model = _plant_and_model(engines, simulator, arm, 1.0 / rate, disturbance)
-        recorder = _Recorder(len(reference.time), arm.joint_count)
         if mode == "computed_torque":
             controller: Controller = ComputedTorque(model, gains, arm.effort_limit, hold / rate)
-            drive = _by_torque(arm.effort_limit)
+            drive = by_torque(arm.effort_limit)
         else:
-            controller, drive = Servo(mode, hold / rate, hold), _by_motors
-        loop = _Loop(plant, controller, drive, Sensors(disturbance, 1.0 / rate), hold)
-        done = loop.run(reference, recorder, progress)
-        name, repaired = plant.name, plant.repaired_links
+            controller, drive = Servo(mode, hold / rate, hold), by_motors
+        recorder = Recorder(len(reference.time), arm.joint_count)
+        ControlLoop(plant, controller, drive, Sensors(disturbance, 1.0 / rate), hold).run(reference, recorder, progress)
+        return _log(joints, mode, plant, reference, recorder, disturbance)
+
+
+def _log(
+    joints: JointTrajectory,
+    mode: str,
+    plant: Simulator,
+    reference: Reference,
+    recorder: Recorder,
+    disturbance: Disturbance,
+) -> ExecutionLog:
+    done = slice(recorder.done)
     return ExecutionLog(
-        arm=arm,
+        arm=plant.arm,
         joints=joints,
-        simulator=name,
+        simulator=plant.name,
         mode=mode,
-        rate=rate,
+        rate=1.0 / plant.time_step,
         motion=reference.motion,
         planned_steps=len(reference.time),
-        repaired_links=repaired,
-        time=reference.time[:done],
-        desired_position=reference.position[:done],
-        desired_velocity=reference.velocity[:done],
-        desired_tool_pose=arm.forward_kinematics(reference.position[:done]),
-        **recorder.arrays(done),
+        repaired_links=plant.repaired_links,
+        time=reference.time[done],
+        desired_position=reference.position[done],
+        desired_velocity=reference.velocity[done],
+        desired_tool_pose=plant.arm.forward_kinematics(reference.position[done]),
+        **recorder.arrays(),
         contacts=tuple(ContactEvent(k, float(reference.time[k]), c) for k, c in recorder.contacts),
         disturbance=disturbance,
     )
@@ -149,85 +153,6 @@ def _plant_and_model(
     if not disturbance.changes_arm:
         return model, model
     return engines.enter_context(simulator(arm, time_step, disturbance=disturbance)), model
-
-
-Drive = Callable[[Simulator, Array], tuple[Array, Array]]
-"""Makes a step of the engine under a command; returns the torque wanted and the torque given, (n,) Nm each."""
-
-
-def _by_torque(limit: Array) -> Drive:
-    def drive(plant: Simulator, demand: Array) -> tuple[Array, Array]:
-        torque = np.minimum(np.maximum(demand, -limit), limit)
-        plant.apply_torque(torque)
-        plant.step()
-        return demand, torque
-
-    return drive
-
-
-def _by_motors(plant: Simulator, velocity: Array) -> tuple[Array, Array]:
-    plant.servo(velocity)
-    plant.step()
-    torque = plant.servo_torque()
-    return torque, torque
-
-
-@dataclass(frozen=True)
-class _Loop:
-    """What closes the loop: an arm, a controller, and the sensors between them."""
-
-    plant: Simulator
-    controller: Controller
-    drive: Drive
-    sensors: Sensors
-    hold: int
-
-    def run(self, reference: Reference, recorder: _Recorder, progress: Progress | None) -> int:
-        """Go along the reference; returns the steps done while the state was finite."""
-        plant, total = self.plant, len(reference.time)
-        plant.reset(reference.position[0], reference.velocity[0])
-        for k in range(total):
-            if not recorder.state(k, plant):
-                return k
-            seen = self.sensors.see(plant.state())
-            if k % self.hold == 0:
-                command = self.controller.act(reference, k, seen)
-            recorder.torques(k, *self.drive(plant, command))
-            recorder.contacts += [(k, contact) for contact in plant.contacts()]
-            if progress and ((k + 1) % _PROGRESS_STEPS == 0 or k + 1 == total):
-                progress(k + 1, total)
-        return total
-
-
-class _Recorder:
-    """Arrays of the whole run, taken before it starts."""
-
-    def __init__(self, steps: int, joints: int) -> None:
-        self._position = np.empty((steps, joints))
-        self._velocity = np.empty((steps, joints))
-        self._demand = np.empty((steps, joints))
-        self._torque = np.empty((steps, joints))
-        self._tool_pose = np.empty((steps, 4, 4))
-        self.contacts: list[tuple[int, Contact]] = []
-
-    def state(self, k: int, engine: Simulator) -> bool:
-        """Record where the arm is; False if that is not finite."""
-        position, velocity = engine.state()
-        self._position[k], self._velocity[k] = position, velocity
-        self._tool_pose[k] = engine.tool_pose()
-        return math.isfinite(position.sum() + velocity.sum())  # one bad number spoils the sum
-
-    def torques(self, k: int, demand: NDArray[np.float64], torque: NDArray[np.float64]) -> None:
-        self._demand[k], self._torque[k] = demand, torque
-
-    def arrays(self, done: int) -> dict[str, NDArray[np.float64]]:
-        return {
-            "position": self._position[:done],
-            "velocity": self._velocity[:done],
-            "torque_demand": self._demand[:done],
-            "torque": self._torque[:done],
-            "tool_pose": self._tool_pose[:done],
-        }
 
 
 def _refuse(

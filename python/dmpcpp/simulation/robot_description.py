@@ -80,13 +80,7 @@ def describe(
     _refuse_folded_joints(robot, arm)
     links = robot.findall("link")
     for link in links:
-        if not visuals:
-            for visual in link.findall("visual"):
-                link.remove(visual)
-        for mesh in link.iter("mesh"):
-            mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), arm.folder, link.get("name", ""))))
-        for collision in link.findall("collision"):
-            _split_into_convex_pieces(link, collision, folder)
+        _prepare_shapes(link, arm.folder, folder, visuals)
     repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
     _change(robot, arm, disturbance or Disturbance())
     if only_the_arm_moves:
@@ -152,6 +146,16 @@ def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _second_moment(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(0.5 * np.trace(inertia) * np.eye(3) - inertia)
+
+
+def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool) -> None:
+    """Find the meshes, and make those that collide convex."""
+    for visual in [] if visuals else link.findall("visual"):
+        link.remove(visual)
+    for mesh in link.iter("mesh"):
+        mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), urdf_folder, link.get("name", ""))))
+    for collision in link.findall("collision"):
+        _split_into_convex_pieces(link, collision, folder)
 
 
 def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: Path) -> None:

@@ -32,7 +32,7 @@ def agreement(
     tuple of Check
         ``engines_position_max``, ``engines_angle_max``: the largest distance and angle of the two tool poses at
         equal times; ``engines_torque_rms``: root mean square of the difference of the torques over the effort
-        limit, of the joint where it is largest.
+        limit, of the joint where it is largest; ``engines_verdicts``: how many checks hold in only one of them.
 
     Raises
     ------
@@ -57,4 +57,7 @@ def agreement(
     share = np.sqrt(np.mean(((log.torque - other.torque) / log.arm.effort_limit) ** 2, axis=0))
     joint, value = log.arm.joint_names[int(np.argmax(share))], float(share.max())
     limit = tolerances.torque_rms
-    return (*checks, Check("engines_torque_rms", value <= limit, value, limit, "1", None, joint))
+    checks.append(Check("engines_torque_rms", value <= limit, value, limit, "1", None, joint))
+    differing = {check.name for check in log.verdict.failed} ^ {check.name for check in other.verdict.failed}
+    count = len(differing)
+    return (*checks, Check("engines_verdicts", count == 0, count, 0, "checks", None, ", ".join(sorted(differing))))

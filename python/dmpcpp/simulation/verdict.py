@@ -32,7 +32,7 @@ class Check:
     limit : float
         What was allowed: the most, for a margin the least.
     unit : str
-        "m", "rad", "1" (a ratio), "steps", "links".
+        "m", "rad", "s", "1" (a ratio), "steps", "links", "checks".
     time : float or None
         Where in the execution the worst is [s].
     detail : str

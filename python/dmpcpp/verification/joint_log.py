@@ -127,21 +127,26 @@ def read_log(path: str | PathLike[str], *, time_unit: str = "s", topic: str | No
 
 
 def _read_csv(path: Path, second: float) -> JointLog:
-    lines = list(data_lines(read_text(path)))
-    rows = [(line, [cell.strip() for cell in next(csv.reader([text]))]) for line, text in lines]
-    header = rows[0][1] if rows else []
+    lines = [(line, next(csv.reader([text]))) for line, text in data_lines(read_text(path))]
+    rows = [(line, [cell.strip() for cell in cells]) for line, cells in lines]
+    header, clock, names = _header(path, rows[0][1] if rows else [])
+    values = np.array([_numbers(path, line, row, header) for line, row in rows[1:]]).reshape(-1, len(header))
+    column = dict(zip(header, values.T, strict=True))
+    position = np.column_stack([column[name] for name in names])
+    velocity, torque = (_columns(column, names, kind) for kind in (_VELOCITIES, _TORQUES))
+    return JointLog(second * column[clock], position, velocity, torque, names, path.name)
+
+
+def _header(path: Path, header: list[str]) -> tuple[list[str], str, tuple[str, ...]]:
+    """The header, and in it the name of the time and those of the joints."""
     clock = next((name for name in header if name.lower() in _TIMES), None)
     if clock is None or len(set(header)) != len(header):
         raise InvalidArgument(f"{path.name}: line 1, expected a header: time,<joints>, each name once.")
-    values = np.array([_numbers(path, line, row, header) for line, row in rows[1:]]).reshape(-1, len(header))
-    column = dict(zip(header, values.T, strict=True))
     suffixes = ("_acc", *_VELOCITIES, *_TORQUES)
     names = tuple(name for name in header if name != clock and not name.endswith(suffixes))
     if not names:
         raise InvalidArgument(f"{path.name}: line 1, no column of a joint beside '{clock}'.")
-    position = np.column_stack([column[name] for name in names])
-    velocity, torque = (_columns(column, names, kind) for kind in (_VELOCITIES, _TORQUES))
-    return JointLog(second * column[clock], position, velocity, torque, names, path.name)
+    return header, clock, names
 
 
 def _numbers(path: Path, line: int, row: list[str], header: list[str]) -> list[float]:

@@ -17,12 +17,8 @@ _TYPE = "sensor_msgs/msg/JointState"
 
 def read_bag(path: Path, topic: str | None) -> JointLog:
     """Joint states of one topic by the stamps of their headers, counted from the first; twice the same counts once."""
-    with _opened(path) as reader:
-        connections = _of_topic([c for c in reader.connections if c.msgtype == _TYPE], topic)
-        messages = [reader.deserialize(raw, c.msgtype) for c, _, raw in reader.messages(connections=connections)]
+    messages = _messages(path, topic)
     stamped = {_nanoseconds(message): message for message in messages}
-    if not stamped:
-        raise InvalidArgument(f"{path.name}: no messages on '{connections[0].topic}'.")
     stamps = sorted(stamped)
     ordered = [stamped[stamp] for stamp in stamps]
     names = tuple(str(name) for name in ordered[0].name)
@@ -38,6 +34,15 @@ def read_bag(path: Path, topic: str | None) -> JointLog:
         source=path.name,
         notes=tuple(notes),
     )
+
+
+def _messages(path: Path, topic: str | None) -> list[Any]:
+    with _opened(path) as reader:
+        connections = _of_topic([c for c in reader.connections if c.msgtype == _TYPE], topic)
+        messages = [reader.deserialize(raw, c.msgtype) for c, _, raw in reader.messages(connections=connections)]
+        if not messages:
+            raise InvalidArgument(f"no messages on '{connections[0].topic}'.")
+        return messages
 
 
 def _of_topic(connections: list[Any], topic: str | None) -> list[Any]:
