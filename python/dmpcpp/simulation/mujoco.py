@@ -22,11 +22,14 @@ from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument, MissingDependency
 from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.obstacles import Box
+from dmpcpp.simulation.quiet import quiet
 from dmpcpp.simulation.robot_description import RobotDescription, describe
 from dmpcpp.simulation.simulator import FLOOR, Clearance, Contact
 
 _GRAVITY = -9.81  # m/s^2 along z of the URDF's root
 _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
+_COMPILER = '<mujoco><compiler fusestatic="false" strippath="false"/></mujoco>'
+"""In the URDF: a link that is fixed to another keeps its name, a mesh its folder."""
 _SURROUNDINGS = "dmpcpp_surroundings"  # a body of their own: the root link of a URDF may be called "world"
 
 
@@ -190,12 +193,8 @@ class MuJoCo:
     def _compile(self, description: RobotDescription, floor: float | None, obstacles: Sequence[Box]) -> Any:
         m = self._m
         try:
-            spec = m.MjSpec.from_string(description.text)
-            spec.compiler.fusestatic = False  # a link fixed to another keeps its name
-            for a, b in sorted(tuple(sorted(pair)) for pair in description.neighbours):
-                spec.add_exclude(bodyname1=a, bodyname2=b)
-            self._add_surroundings(spec, floor, obstacles)
-            model = spec.compile()
+            with quiet():  # older ones write warnings to the terminal
+                model = self._spec(description, floor, obstacles).compile()
         except (ValueError, m.FatalError) as error:
             reason = " ".join(str(error).split())
             raise InvalidArgument(f"arm.urdf: MuJoCo can not load '{self.arm.name}': {reason}") from None
@@ -204,6 +203,13 @@ class MuJoCo:
         model.opt.integrator = m.mjtIntegrator.mjINT_EULER
         model.opt.disableflags |= int(m.mjtDisableBit.mjDSBL_EULERDAMP)
         return model
+
+    def _spec(self, description: RobotDescription, floor: float | None, obstacles: Sequence[Box]) -> Any:
+        spec = self._m.MjSpec.from_string(description.text.replace("</robot>", f"{_COMPILER}</robot>"))
+        for a, b in sorted(tuple(sorted(pair)) for pair in description.neighbours):
+            spec.add_exclude(bodyname1=a, bodyname2=b)
+        self._add_surroundings(spec, floor, obstacles)
+        return spec
 
     def _add_surroundings(self, spec: Any, floor: float | None, obstacles: Sequence[Box]) -> None:
         kinds, still = self._m.mjtGeom, spec.worldbody.add_body(name=_SURROUNDINGS)
