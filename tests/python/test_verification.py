@@ -61,7 +61,7 @@ def test_the_lag_is_found_under_encoder_noise(plan, executed):
 
 def test_a_joint_that_is_mounted_off_does_not_move_the_lag(plan, executed):
     log = recorded(executed, 0.031)
-    off = replace(log, position=log.position + np.linspace(-0.02, 0.02, 7))
+    off = replace(log, position=log.position + np.linspace(0.0, 0.02, 7))
     assert verification.estimate_lag(plan, off) == pytest.approx(0.031, abs=2e-5)
 
 
