@@ -9,18 +9,15 @@ Every stage is a value that can be looked at on its own; each step here is one c
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dmpcpp import arms, export, metrics, motion, plot, retarget, simulation
+from dmpcpp import arms, metrics, motion, retarget, simulation
 from dmpcpp._core import (
     Arm,
     InverseKinematics,
@@ -29,19 +26,21 @@ from dmpcpp._core import (
     PoseDmp,
     PoseTrajectory,
     duration_factor,
-    save,
     stretched,
 )
-from dmpcpp.atomic import replacing, write_text
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.imitation_files import write
 from dmpcpp.metrics import StageErrors
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement
-from dmpcpp.simulation import Check, ExecutionLog
+from dmpcpp.simulation import Check, ExecutionLog, Simulator
 
 __all__ = ["STAGES", "Imitation", "imitate", "learn", "write"]
 
 Progress = Callable[[str, float], None]
 """Called as progress(stage, share done): a name of STAGES and 0 to 1."""
+
+Engine = Callable[..., Simulator]
 
 STAGES = ("place", "learn", "solve", "execute")
 
@@ -73,6 +72,8 @@ class Imitation:
     stages : dict of str to StageErrors
         "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
     checks : tuple of Check
+    second_log : ExecutionLog or None
+        The same joints in the second engine, where both were asked for.
     """
 
     recording: Recording
@@ -84,6 +85,7 @@ class Imitation:
     log: ExecutionLog
     stages: dict[str, StageErrors]
     checks: tuple[Check, ...]
+    second_log: ExecutionLog | None = None
 
     @property
     def ok(self) -> bool:
@@ -108,6 +110,7 @@ class Imitation:
             "duration": self.plan.time[-1],
             "slowdown": self.slowdown,
             "simulator": self.log.simulator,
+            "second_simulator": self.second_log.simulator if self.second_log else None,
             "mode": self.log.mode,
             "caveat": self.log.caveat,
         }
@@ -120,6 +123,7 @@ def imitate(
     seed: int = 0,
     place: bool = True,
     basis_count: int | None = None,
+    simulator: str = "bullet",
     progress: Progress | None = None,
 ) -> Imitation:
     """Carry out a recorded motion on a simulated arm and say how well that went.
@@ -135,35 +139,43 @@ def imitate(
         poses of the arm's tip in its base frame.
     basis_count : int, optional
         Kernels of the model; by default as many as the motion needs.
+    simulator : {"bullet", "mujoco", "both"}
+        The physics engine. With both, Bullet is the one that everything is measured in, MuJoCo executes the
+        same joints, and checks say how far the two are apart.
     progress : callable, optional
         See `Progress`.
 
     Raises
     ------
     InvalidArgument
-        The recording can not be learned, or no placement carries it.
+        The recording can not be learned, no placement carries it, or there is no such simulator.
     MissingDependency
         The simulator is not installed.
     """
     tell = progress or (lambda stage, done: None)
+    engines = _engines(simulator)
     tell("place", 0.0)
     recording = motion.continuous(recording)
-    placement = retarget.place(recording, arm, seed, accept=_clear_of_itself(arm)) if place else None
+    placement = retarget.place(recording, arm, seed, accept=_clear_of_itself(arm, engines[0])) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
     demonstration = motion.demonstration(placed)
     model = learn(demonstration, basis_count)
     tell("solve", 0.0)
-    plan, joints, slowdown = _solve(model, arm, placement.start if placement else None)
+    plan, joints, slowdown = _solve(model, arm, placement.start if placement else None, engines[0])
     tell("execute", 0.0)
-    log = simulation.execute(arm, joints, progress=lambda done, total: tell("execute", done / total))
+    path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
+    logs = _execute(arm, joints, engines, lambda done: tell("execute", done))
+    log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
         "demonstration_to_dmp": _reproduction(model, demonstration),
         "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
         "ik_to_executed": log.errors,
     }
-    checks = (*_reproduction_checks(stages["demonstration_to_dmp"]), *log.verdict.checks)
-    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks)
+    checks = (*_reproduction_checks(stages["demonstration_to_dmp"]), *path_checks, *log.verdict.checks)
+    if second is not None:
+        checks = (*checks, *simulation.agreement(log, second))
+    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, second)
 
 
 def learn(demonstration: PoseDemonstration, basis_count: int | None = None) -> PoseDmp:
@@ -190,39 +202,40 @@ def learn(demonstration: PoseDemonstration, basis_count: int | None = None) -> P
     return best[1]
 
 
-def write(run: Imitation, folder: str | PathLike[str]) -> None:
-    """Write model.json, plan.npz, joints.csv, picture.png and summary.json, each whole or not at all.
-
-    The summary comes last: a folder that has one has all.
-
-    Raises
-    ------
-    FileError
-        The folder or a file can not be written.
-    """
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "summary.json").unlink(missing_ok=True)
-    arm = run.log.arm
-    save(run.model, folder / "model.json")
-    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip)
-    export.write_joints(folder / "joints.csv", run.joints)
-    _picture(run, folder / "picture.png")
-    write_text(folder / "summary.json", json.dumps(run.summary(), indent=2, allow_nan=False) + "\n")
+def _engines(simulator: str) -> tuple[Engine, ...]:
+    engines = simulation.ENGINES
+    if simulator == "both":
+        return tuple(engines.values())
+    if simulator not in engines:
+        raise InvalidArgument(f"simulator: '{simulator}', expected one of {', '.join(engines)}, both.")
+    return (engines[simulator],)
 
 
-def _clear_of_itself(arm: Arm) -> Callable[[JointTrajectory], bool]:
+def _execute(
+    arm: Arm, joints: JointTrajectory, engines: tuple[Engine, ...], tell: Callable[[float], None]
+) -> list[ExecutionLog]:
+    """Return the log of every engine; ``tell`` hears the share of all that is done."""
+
+    def run(k: int) -> ExecutionLog:
+        return simulation.execute(
+            arm, joints, simulator=engines[k], progress=lambda done, total: tell((k + done / total) / len(engines))
+        )
+
+    return [run(k) for k in range(len(engines))]
+
+
+def _clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
     """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
 
     def clear(joints: JointTrajectory) -> bool:
         every = max(1, len(joints.time) // 100)
-        return not simulation.contacts_along(arm, joints.position[::every])
+        return not simulation.contacts_along(arm, joints.position[::every], simulator=engine)
 
     return clear
 
 
 def _solve(
-    model: PoseDmp, arm: Arm, start: NDArray[np.float64] | None
+    model: PoseDmp, arm: Arm, start: NDArray[np.float64] | None, engine: Engine
 ) -> tuple[PoseTrajectory, JointTrajectory, float]:
     """Return plan, joints and slowdown: the path as demonstrated, the duration as the joint limits ask for."""
     samples = _SAMPLES_PER_KERNEL * max(model.options.basis_count, 100)
@@ -236,7 +249,7 @@ def _solve(
         _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)),
     )
     joints = stretched(joints, slowdown)
-    torque = simulation.torque_duration_factor(arm, joints)
+    torque = simulation.torque_duration_factor(arm, joints, simulator=engine)
     if 1.0 < torque < np.inf:
         joints = stretched(joints, torque)
         slowdown *= torque
@@ -265,30 +278,3 @@ def _reproduction_checks(errors: StageErrors) -> tuple[Check, ...]:
             "rad",
         ),
     )
-
-
-def _picture(run: Imitation, path: Path) -> None:
-    demonstrated = motion.poses(run.recording)
-    during = run.log.motion
-    again = run.model.rollout_at(run.recording.time).pose
-    solved = run.log.arm.forward_kinematics(run.joints.position)
-    executed = run.log.tool_pose[during]
-
-    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
-        return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
-
-    with replacing(path) as temporary:
-        plot.picture(
-            temporary,
-            demonstrated=demonstrated,
-            planned=run.plan.pose,
-            executed=executed,
-            errors=(
-                curve("demonstration → DMP", run.slowdown * run.recording.time, demonstrated, again),
-                curve("DMP → FK(IK)", run.plan.time, run.plan.pose, solved),
-                curve("FK(IK) → executed", run.log.time[during], run.log.desired_tool_pose[during], executed),
-            ),
-            title=f"{run.recording.source} ({run.recording.body}) on {run.log.arm.name}",
-            note=f"{'all checks held' if run.ok else 'checks failed'}; {run.slowdown:.2f} x the recorded duration; "
-            f"{run.log.simulator}, {run.log.mode}",
-        )

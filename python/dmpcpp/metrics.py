@@ -174,6 +174,42 @@ def frechet(a: ArrayLike, b: ArrayLike) -> float:
     return float(last[count])
 
 
+def dtw(a: ArrayLike, b: ArrayLike) -> float:
+    """Dynamic time warping distance per sample [unit of the points] of two paths (T, d) and (S, d).
+
+    The least sum of distances over all ways to pair samples going forward only, each step of weight 1, first with
+    first and last with last, divided by max(T, S). Packages differ: this is ``similaritymeasures.dtw`` and
+    ``dtaidistance`` with ``inner_dist="euclidean"``, over max(T, S). Sakoe and Chiba, "Dynamic programming
+    algorithm optimization for spoken word recognition", IEEE TASSP 1978. Blind to a lag and to the tempo.
+    """
+    p, q = _series("a", a), _series("b", b)
+    if p.shape[1] != q.shape[1]:
+        raise InvalidArgument(f"b: {q.shape[1]} columns, expected {p.shape[1]} as in a.")
+    distance = np.linalg.norm(p[:, None] - q[None], axis=2)
+    count, width = distance.shape
+    # The least sum up to (i, j) needs those at (i-1, j), (i, j-1) and (i-1, j-1): go by anti-diagonals.
+    before_last, last = np.full(count + 1, np.inf), np.full(count + 1, np.inf)
+    before_last[0] = 0.0  # nothing precedes the first pair
+    for diagonal in range(count + width - 1):
+        i = np.arange(max(0, diagonal - width + 1), min(count, diagonal + 1))
+        ways = np.minimum(np.minimum(last[i], last[i + 1]), before_last[i])
+        here = np.full(count + 1, np.inf)
+        here[i + 1] = distance[i, diagonal - i] + ways
+        before_last, last = last, here
+    return float(last[count] / max(count, width))
+
+
+def margin(values: ArrayLike, limit: ArrayLike) -> float:
+    """What is left of a limit: 1 - max |values| / limit, of series (T, n) with limits (n,) or one for all.
+
+    1 at rest, 0 at a limit, negative beyond.
+    """
+    array, most = _series("values", values), np.asarray(limit, dtype=np.float64)
+    if most.shape not in ((), (array.shape[1],)) or not (most > 0.0).all():
+        raise InvalidArgument(f"limit: {limit}, expected {array.shape[1]} positive number(s), or one.")
+    return float(1.0 - np.max(np.abs(array) / most))
+
+
 # ---- what comes in ---------------------------------------------------------------------------------
 
 

@@ -64,6 +64,26 @@ def test_demo_is_verified(arm, tmp_path):
     assert (out / "picture.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("simulator, arm", [("both", "panda"), ("mujoco", "iiwa")])
+def test_a_motion_is_executed_by_the_engine_that_was_asked_for(simulator, arm, tmp_path):
+    pytest.importorskip("mujoco")
+    time, rows = hand_path()
+    np.savez(tmp_path / "hand.npz", time=time, pose=rows)
+    stated = ("imitate", "hand.npz", "--quat-order", "xyzw", "--arm", arm, "--simulator", simulator)
+    done = run(*stated, "--json", "--out", "out", cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    summary = json.loads(done.stdout)
+    engines = {check["name"] for check in summary["checks"] if check["name"].startswith("engines_")}
+    if simulator == "both":
+        assert engines == {f"engines_{name}" for name in ("position_max", "angle_max", "torque_rms", "verdicts")}
+        assert "PyBullet" in summary["simulator"] and "MuJoCo" in summary["second_simulator"]
+    else:
+        assert not engines
+        assert "MuJoCo" in summary["simulator"] and summary["second_simulator"] is None
+    verified = run("verify", "out", "out/joints.csv", "--arm", arm, "--simulator", "mujoco", cwd=tmp_path)
+    assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
 def test_the_same_seed_gives_the_same_files(tmp_path):
     time, rows = hand_path()
     np.savez(tmp_path / "hand.npz", time=time, pose=rows)
@@ -150,6 +170,8 @@ def test_a_reflection_is_refused_with_the_index(tmp_path):
         (["demo", "--arm", "ur99"], "panda"),
         (["demo", "--arm", "missing.urdf"], "missing.urdf"),
         (["demo", "--basis-count", "0"], "basis-count"),
+        (["demo", "--simulator", "gazebo"], "'bullet', 'mujoco', 'both'"),
+        (["verify", "nowhere.csv", "log.csv"], "nowhere.csv"),
         (["demo", "--no-such-option"], "No such option"),
         (["dance"], "No such command"),
     ],

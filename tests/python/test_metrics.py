@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from dmpcpp import metrics
+from dmpcpp import comparison, metrics
 from dmpcpp.errors import InvalidArgument
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -146,9 +146,94 @@ def test_frechet_sees_an_offset_but_neither_tempo_nor_lag():
     assert metrics.frechet(path, path[::2]) < 0.02
 
 
+def paths(count, other, seed):
+    random = np.random.default_rng(seed)
+    return random.normal(size=(count, 3)).cumsum(axis=0), random.normal(size=(other, 3)).cumsum(axis=0)
+
+
+@pytest.mark.parametrize("count, other", [(1, 1), (1, 7), (30, 30), (45, 80)])
+def test_dtw_and_frechet_are_those_of_similaritymeasures(count, other):
+    oracle = pytest.importorskip("similaritymeasures")
+    p, q = paths(count, other, seed=8)
+    assert metrics.dtw(p, q) * max(count, other) == pytest.approx(oracle.dtw(p, q)[0], rel=1e-9)
+    assert metrics.frechet(p, q) == pytest.approx(oracle.frechet_dist(p, q), rel=1e-9)
+
+
+@pytest.mark.parametrize("count, other", [(2, 2), (40, 25), (60, 61)])
+def test_dtw_is_that_of_dtaidistance_with_euclidean_steps(count, other):
+    oracle = pytest.importorskip("dtaidistance.dtw_ndim")
+    p, q = paths(count, other, seed=9)
+    expected = oracle.distance(p, q, inner_dist="euclidean") / max(count, other)
+    assert metrics.dtw(p, q) == pytest.approx(expected, rel=1e-9)
+
+
+def test_rmse_is_the_root_of_the_mean_squared_error_of_similaritymeasures():
+    oracle = pytest.importorskip("similaritymeasures")
+    p, q = paths(200, 200, seed=10)
+    squared = 3 * oracle.mse(p, q)  # theirs is the mean over the numbers, ours over the points
+    assert metrics.compare(poses(p), poses(q)).position_rmse == pytest.approx(np.sqrt(squared), rel=1e-9)
+
+
+def test_dtw_sees_an_offset_but_no_lag():
+    u = np.linspace(0.0, 1.0, 200)
+    path = np.column_stack([np.cos(3 * u), np.sin(3 * u), u])
+    late = np.vstack([np.tile(path[:1], (20, 1)), path])
+    assert metrics.dtw(path, late) == 0.0
+    assert 0.003 < metrics.dtw(path, path + np.array([0.005, 0.0, 0.0])) <= 0.005 * (1 + 1e-9)
+
+
+def test_a_margin_is_what_is_left_of_the_nearest_limit():
+    values = np.array([[0.5, -1.0], [0.2, 3.0]])
+    assert metrics.margin(values, [1.0, 4.0]) == pytest.approx(0.25)
+    assert metrics.margin(values, 2.0) == pytest.approx(-0.5)
+    assert metrics.margin(np.zeros((3, 2)), 1.0) == 1.0
+
+
+def reach_poses(duration=1.0, rate=200.0, noise=0.0):
+    u = np.linspace(0.0, 1.0, round(duration * rate) + 1)
+    blend = 10 * u**3 - 15 * u**4 + 6 * u**5
+    shake = noise * np.random.default_rng(3).normal(size=(len(u), 3))
+    return poses(blend[:, None] * np.array([0.3, 0.1, 0.2]) + shake, Rotation.from_rotvec(blend[:, None] * [0, 0, 1.0]))
+
+
+def test_a_comparison_has_every_measure_and_each_is_its_own_function():
+    a, b = reach_poses(), reach_poses(noise=1e-4)
+    found = comparison.compare_motions(a, b, 200.0)
+    p, q = a[:, :3, 3], b[:, :3, 3]
+    assert found.errors == metrics.compare(a, b)
+    assert found.final == metrics.final_error(a, b)
+    assert (found.dtw, found.frechet) == (metrics.dtw(p, q), metrics.frechet(p, q))
+    speeds = [np.linalg.norm(np.gradient(x, 0.005, axis=0), axis=1) for x in (p, q)]
+    assert found.sparc == pytest.approx(metrics.sparc(speeds[1], 200.0) - metrics.sparc(speeds[0], 200.0), abs=1e-12)
+    assert found.log_dimensionless_jerk < -1.0  # noise: much rougher
+
+
+def test_a_motion_compared_with_itself_differs_in_nothing():
+    found = comparison.compare_motions(reach_poses(), reach_poses(), 200.0)
+    assert set(found.to_dict()["errors"].values()) == {0.0}
+    assert (found.dtw, found.frechet, found.sparc, found.log_dimensionless_jerk) == (0.0, 0.0, 0.0, 0.0)
+    assert found.lag == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_lag_is_found_by_the_comparison():
+    long = np.vstack([np.tile(reach_poses()[:1], (40, 1, 1)), reach_poses(), np.tile(reach_poses()[-1:], (40, 1, 1))])
+    late = np.vstack([long[:1].repeat(10, axis=0), long[:-10]])
+    assert comparison.compare_motions(long, late, 200.0).lag == pytest.approx(0.05, abs=1e-4)
+
+
+def test_what_stands_still_has_no_smoothness():
+    still = np.tile(np.eye(4), (10, 1, 1))
+    found = comparison.compare_motions(still, still, 100.0)
+    assert (found.sparc, found.log_dimensionless_jerk) == (None, None)
+
+
 @pytest.mark.parametrize(
     "call, message",
     [
+        (lambda: metrics.dtw(np.zeros((2, 2)), np.zeros((2, 3))), "expected 2 as in a"),
+        (lambda: metrics.margin([[1.0, 2.0]], [1.0]), "limit: .*expected 2 positive"),
+        (lambda: metrics.margin([[1.0]], 0.0), "limit: 0.0, expected 1 positive"),
+        (lambda: comparison.compare_motions(np.zeros((2, 4, 4)), np.zeros((2, 4, 4)), 1.0), "expected at least 3"),
         (lambda: metrics.compare(np.eye(4), np.eye(4)), r"reference: shape \(4, 4\), expected \(T, 4, 4\)"),
         (lambda: metrics.compare(np.zeros((2, 4, 4)), np.zeros((3, 4, 4))), "differ"),
         (lambda: metrics.compare(np.zeros((0, 4, 4)), np.zeros((0, 4, 4))), "no samples"),

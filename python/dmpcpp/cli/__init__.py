@@ -1,4 +1,4 @@
-"""The command line: `dmpcpp demo`, `dmpcpp imitate`, `dmpcpp reproduce`.
+"""The command line: `dmpcpp demo`, `dmpcpp imitate`, `dmpcpp reproduce`, `dmpcpp verify`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -6,8 +6,9 @@ Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its chec
 from dmpcpp.cli.group import main
 from dmpcpp.cli.imitation import demo, imitate
 from dmpcpp.cli.reproduction import reproduce
+from dmpcpp.cli.verification import verify
 
 __all__ = ["main"]
 
-for command in (demo, imitate, reproduce):
+for command in (demo, imitate, reproduce, verify):
     main.add_command(command)

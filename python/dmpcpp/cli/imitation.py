@@ -12,33 +12,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli.group import FAILED, refuse_file
+from dmpcpp.cli.options import arm_options
+from dmpcpp.cli.tables import checks_table
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
     from dmpcpp.imitation import Imitation, Progress
     from dmpcpp.recordings import Recording
-
-
-def _arm_options(command: Callable[..., None]) -> Callable[..., None]:
-    options = (
-        click.option(
-            "--arm",
-            default="panda",
-            show_default=True,
-            metavar="NAME|FILE.urdf",
-            help="panda, iiwa, xarm6, or a URDF.",
-        ),
-        click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given."),
-        click.option(
-            "--tip",
-            metavar="LINK",
-            help="The link of a URDF that follows the motion; its only leaf unless given.",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
 
 
 def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -61,6 +42,13 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
             click.option(
                 "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
             ),
+            click.option(
+                "--simulator",
+                default="bullet",
+                show_default=True,
+                type=click.Choice(["bullet", "mujoco", "both"]),
+                help="Physics engine; with both the two are compared.",
+            ),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
         for option in reversed(options):
@@ -73,7 +61,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
 @click.command()
 @click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
 @click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
-@_arm_options
+@arm_options
 @_run_options("dmpcpp-demo")
 def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
     """Show the main job on a human motion that every installation has.
@@ -109,7 +97,7 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @click.option("--end", type=float, metavar="S", help="Use the motion up to here [s].")
 @click.option("--low-pass", type=float, metavar="HZ", help="Remove what is faster (zero-phase Butterworth).")
 @click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame.")
-@_arm_options
+@arm_options
 @_run_options("dmpcpp-imitation")
 def imitate(
     file: Path,
@@ -130,7 +118,7 @@ def imitate(
     """
     from dmpcpp import arms, motion, recordings
 
-    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "as_json")}
+    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "as_json")}
     stated = {name: value for name, value in options.items() if value is not None}
     if "columns" in stated:
         stated["columns"] = _columns(stated["columns"])
@@ -159,6 +147,7 @@ def _carry_out(
     out: Path,
     seed: int,
     basis_count: int | None,
+    simulator: str,
     as_json: bool,
     place: bool = True,
 ) -> None:
@@ -166,7 +155,9 @@ def _carry_out(
 
     refuse_file(out)
     with _progress(as_json) as progress:
-        run = imitation.imitate(recording, arm, seed=seed, place=place, basis_count=basis_count, progress=progress)
+        run = imitation.imitate(
+            recording, arm, seed=seed, place=place, basis_count=basis_count, simulator=simulator, progress=progress
+        )
     imitation.write(run, out)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
@@ -213,7 +204,7 @@ def _print(run: Imitation, out: Path) -> None:
         f"{run.slowdown:.2f} x the recorded duration"
     )
     console.print(_errors_table(run, Table))
-    console.print(_checks_table(run, Table))
+    console.print(checks_table(run.checks))
     console.print(
         "verified" if run.ok else "not verified", style="bold green" if run.ok else "bold red", markup=False, end=": "
     )
@@ -230,13 +221,20 @@ _ADVICE = {
 
 def _reason(run: Imitation) -> str:
     """What was verified, or which checks failed and what to do about the likely cause."""
+    how = _how(run)
     failed = {check.name: check for check in run.checks if not check.ok}
     if not failed:
-        return f"{run.log.arm.name}, {run.log.simulator}, {run.log.mode}. {run.log.caveat}."
+        return how
     first = next((name for name in _ADVICE if name in failed), next(iter(failed)))
     names = [first, *(name for name in failed if name != first)]
     numbers = ", ".join(f"{n} {failed[n].value:.3g} (limit {failed[n].limit:.3g} {failed[n].unit})" for n in names)
-    return f"{len(failed)} of {len(run.checks)} checks failed: {numbers}. {_ADVICE.get(first, '')}".rstrip()
+    return f"{len(failed)} of {len(run.checks)} checks failed: {numbers}. {_ADVICE.get(first, '')}".rstrip() + f" {how}"
+
+
+def _how(run: Imitation) -> str:
+    """By what it was judged, and what that can not see."""
+    engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
+    return f"{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:
@@ -257,20 +255,5 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
         table.add_row(
             names[stage],
             *(f"{value:.2g}" if value < 0.01 else f"{value:.3f}" for value in (*lengths, *turns)),
-        )
-    return table
-
-
-def _checks_table(run: Imitation, table_type: type) -> Any:
-    from rich.markup import escape
-
-    table = table_type(title="checks", title_justify="left")
-    for title in ("", "check", "value", "limit", "unit", "where"):
-        table.add_column(title, justify="right" if title in ("value", "limit") else "left", no_wrap=title == "check")
-    for check in run.checks:
-        where = f"{check.time:.2f} s " if check.time is not None else ""
-        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
-        table.add_row(
-            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, escape(where + check.detail)
         )
     return table

@@ -1,27 +1,44 @@
 """Physics: a joint trajectory carried out on a simulated arm, and the judgement of how it went.
 
-``execute(arm, joints)`` gives an ``ExecutionLog``; ``log.verdict`` says what held. PyBullet is imported when
-it is first needed; without it ``execute`` raises ``MissingDependency``.
+``execute(arm, joints)`` gives an ``ExecutionLog``; ``log.verdict`` says what held. PyBullet and
+MuJoCo are imported when they are first needed; without them ``execute`` raises ``MissingDependency``.
 """
 
 from dmpcpp.simulation.bullet import Bullet
-from dmpcpp.simulation.execution import contacts_along, execute
+from dmpcpp.simulation.disturbance import Disturbance
+from dmpcpp.simulation.execution import execute
 from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
-from dmpcpp.simulation.simulator import Contact, Simulator
+from dmpcpp.simulation.mujoco import MuJoCo
+from dmpcpp.simulation.obstacles import Box
+from dmpcpp.simulation.path_check import PathTolerances, contacts_along, path_checks
+from dmpcpp.simulation.second_opinion import AgreementTolerances, agreement
+from dmpcpp.simulation.simulator import Clearance, Contact, Simulator
 from dmpcpp.simulation.torque_scaling import torque_duration_factor
 from dmpcpp.simulation.verdict import Check, Tolerances, Verdict, judge
 
+ENGINES = {"bullet": Bullet, "mujoco": MuJoCo}
+"""The engines by the names of the command line."""
+
 __all__ = [
+    "ENGINES",
+    "AgreementTolerances",
+    "Box",
     "Bullet",
     "Check",
+    "Clearance",
     "Contact",
     "ContactEvent",
+    "Disturbance",
     "ExecutionLog",
+    "MuJoCo",
+    "PathTolerances",
     "Simulator",
     "Tolerances",
     "Verdict",
+    "agreement",
     "contacts_along",
     "execute",
     "judge",
+    "path_checks",
     "torque_duration_factor",
 ]

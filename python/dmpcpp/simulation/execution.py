@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from typing import Literal
+from contextlib import ExitStack
+from dataclasses import asdict
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation.bullet import Bullet
-from dmpcpp.simulation.execution_log import CAVEATS, ContactEvent, ExecutionLog
-from dmpcpp.simulation.reference import Reference, sample
-from dmpcpp.simulation.simulator import Contact, Simulator
-
-Mode = Literal["computed_torque", "position"]
-Progress = Callable[[int, int], None]
-
-_PROGRESS_STEPS = 100  # steps between two calls of the progress function
+from dmpcpp.simulation.control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
+from dmpcpp.simulation.control_loop import ControlLoop, Progress, Recorder, by_motors, by_torque
+from dmpcpp.simulation.disturbance import Disturbance
+from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
+from dmpcpp.simulation.reference import INTERPOLATIONS, Interpolation, Reference, sample
+from dmpcpp.simulation.sensing import Sensors
+from dmpcpp.simulation.simulator import Simulator
 
 
 def execute(
@@ -28,12 +26,15 @@ def execute(
     *,
     rate: float = 1000.0,
     mode: Mode = "computed_torque",
-    kp: float = 400.0,
-    kd: float = 40.0,
+    kp: float = 1600.0,
+    kd: float = 80.0,
+    ki: float = 0.0,
     settle: float = 0.5,
     from_rest: bool = True,
     consistent: bool = True,
-    simulator: Callable[[Arm, float], Simulator] = Bullet,
+    interpolation: Interpolation = "quintic",
+    disturbance: Disturbance | None = None,
+    simulator: Callable[..., Simulator] = Bullet,
     progress: Progress | None = None,
 ) -> ExecutionLog:
     """Carry out ``joints`` on ``arm`` under physics; two calls give the same log bit for bit.
@@ -45,13 +46,16 @@ def execute(
         (T, n), T >= 2, in the order of ``arm.joint_names``.
     rate : float
         Control and physics steps a second [Hz].
-    mode : {"computed_torque", "position"}
-        ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) in
-        the measured state, clipped at the effort limits (Siciliano et al., Robotics, 2009, section 8.5.2).
-        ``"position"``: a sanity check; the engine's own motors reach the next reference inside the step. It
-        tests kinematics and the torque cap only, and can not feel a load.
-    kp, kd : float
-        Gains of the computed torque [1/s^2, 1/s], >= 0; critically damped where kd = 2 sqrt(kp).
+    mode : {"computed_torque", "position", "position_velocity", "velocity"}
+        ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q) + ki
+        integral of (q_ref - q)) in the state that is seen, clipped at the effort limits (Siciliano et al.,
+        Robotics, 2009, section 8.5.2). The others are sanity checks: the engine's own motors reach a velocity
+        inside the step, which tests kinematics and the torque cap only and can not feel a load. It is the
+        velocity to the next reference position, that of the reference with the error made good in one step,
+        or that of the reference with 10/s times the error.
+    kp, kd, ki : float
+        Gains of the computed torque [1/s^2, 1/s, 1/s^3], >= 0; critically damped where kd = 2 sqrt(kp), stable
+        where ki < kp kd. An integral takes away what a constant load leaves.
     settle : float
         How long the arm holds the last position [s], >= 0.
     from_rest : bool
@@ -60,9 +64,13 @@ def execute(
     consistent : bool
         Take the reference's velocity and acceleration by differences of its samples: what a semi-implicit
         engine follows without error. If False they are the derivatives of the spline.
+    interpolation : {"quintic", "cubic"}
+        Between the samples: through their positions, velocities and accelerations, or without the last.
+    disturbance : Disturbance, optional
+        What the controller does not know.
     simulator : callable
         ``simulator(arm, time_step)`` gives a ``Simulator``; ``functools.partial(Bullet, floor=None)`` has no
-        ground.
+        ground. With a disturbance of the arm also called with ``disturbance=``.
     progress : callable, optional
         Called as ``progress(done, total)`` every hundred steps and at the end.
 
@@ -78,118 +86,85 @@ def execute(
     MissingDependency
         The engine is not installed.
     """
-    _refuse(arm, joints, rate, mode, kp, kd, settle)
-    reference = sample(arm, joints, rate, settle=settle, from_rest=from_rest, consistent=consistent)
-    with simulator(arm, 1.0 / rate) as engine:
-        recorder = _Recorder(len(reference.time), arm.joint_count)
-        drive = _computed_torque(kp, kd, arm.effort_limit) if mode == "computed_torque" else _servo
-        done = _run(engine, reference, drive, recorder, progress)
-        name, repaired = engine.name, engine.repaired_links
+    disturbance = disturbance or Disturbance()
+    gains = Gains(kp, kd, ki)
+    _refuse(arm, joints, rate, mode, interpolation, gains, settle)
+    hold = _hold(rate, disturbance)
+    reference = sample(
+        arm, joints, rate, settle=settle, from_rest=from_rest, consistent=consistent, interpolation=interpolation
+    )
+    with ExitStack() as engines:
+        plant, model = _plant_and_model(engines, simulator, arm, 1.0 / rate, disturbance)
+        if mode == "computed_torque":
+            controller: Controller = ComputedTorque(model, gains, arm.effort_limit, hold / rate)
+            drive = by_torque(arm.effort_limit)
+        else:
+            controller, drive = Servo(mode, hold / rate, hold), by_motors
+        recorder = Recorder(len(reference.time), arm.joint_count)
+        ControlLoop(plant, controller, drive, Sensors(disturbance, 1.0 / rate), hold).run(reference, recorder, progress)
+        return _log(joints, mode, plant, reference, recorder, disturbance)
+
+
+def _log(
+    joints: JointTrajectory,
+    mode: str,
+    plant: Simulator,
+    reference: Reference,
+    recorder: Recorder,
+    disturbance: Disturbance,
+) -> ExecutionLog:
+    done = slice(recorder.done)
     return ExecutionLog(
-        arm=arm,
+        arm=plant.arm,
         joints=joints,
-        simulator=name,
+        simulator=plant.name,
         mode=mode,
-        rate=rate,
+        rate=1.0 / plant.time_step,
         motion=reference.motion,
         planned_steps=len(reference.time),
-        repaired_links=repaired,
-        time=reference.time[:done],
-        desired_position=reference.position[:done],
-        desired_velocity=reference.velocity[:done],
-        desired_tool_pose=arm.forward_kinematics(reference.position[:done]),
-        **recorder.arrays(done),
+        repaired_links=plant.repaired_links,
+        time=reference.time[done],
+        desired_position=reference.position[done],
+        desired_velocity=reference.velocity[done],
+        desired_tool_pose=plant.arm.forward_kinematics(reference.position[done]),
+        **recorder.arrays(),
         contacts=tuple(ContactEvent(k, float(reference.time[k]), c) for k, c in recorder.contacts),
+        disturbance=disturbance,
     )
 
 
-def contacts_along(
-    arm: Arm,
-    position: NDArray[np.float64],
-    *,
-    simulator: Callable[[Arm, float], Simulator] = Bullet,
-) -> list[tuple[int, Contact]]:
-    """Contacts of the arm with itself and the floor at joints (T, n), without dynamics: (index, contact)."""
-    with simulator(arm, 1e-3) as engine:
-        return [(k, contact) for k, q in enumerate(position) for contact in engine.contacts_at(q)]
+def _hold(rate: float, disturbance: Disturbance) -> int:
+    """Steps between two actions of the controller."""
+    if disturbance.control_rate is None:
+        return 1
+    hold = round(rate / disturbance.control_rate)
+    if hold < 1 or abs(hold * disturbance.control_rate - rate) > 1e-9 * rate:
+        raise InvalidArgument(
+            f"disturbance.control_rate: {disturbance.control_rate:g} Hz does not divide the simulation's {rate:g} Hz."
+        )
+    return hold
 
 
-Drive = Callable[[Simulator, Reference, int], tuple[NDArray[np.float64], NDArray[np.float64]]]
-"""Makes step k of the engine; returns the torque wanted and the torque given, (n,) Nm each."""
+def _plant_and_model(
+    engines: ExitStack, simulator: Callable[..., Simulator], arm: Arm, time_step: float, disturbance: Disturbance
+) -> tuple[Simulator, Simulator]:
+    """The arm that moves, and the one that its controller believes in: the same unless it is disturbed."""
+    model = engines.enter_context(simulator(arm, time_step))
+    if not disturbance.changes_arm:
+        return model, model
+    return engines.enter_context(simulator(arm, time_step, disturbance=disturbance)), model
 
 
-def _run(engine: Simulator, reference: Reference, drive: Drive, recorder: _Recorder, progress: Progress | None) -> int:
-    """Drive the engine along the reference; returns the steps done while the state was finite."""
-    total = len(reference.time)
-    engine.reset(reference.position[0], reference.velocity[0])
-    for k in range(total):
-        if not recorder.state(k, engine):
-            return k
-        recorder.torques(k, *drive(engine, reference, k))
-        recorder.contacts += [(k, contact) for contact in engine.contacts()]
-        if progress and ((k + 1) % _PROGRESS_STEPS == 0 or k + 1 == total):
-            progress(k + 1, total)
-    return total
-
-
-def _computed_torque(kp: float, kd: float, limit: NDArray[np.float64]) -> Drive:
-    def drive(engine: Simulator, reference: Reference, k: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        position, velocity = engine.state()
-        acceleration = reference.acceleration[k] + kd * (reference.velocity[k] - velocity)
-        demand = engine.inverse_dynamics(acceleration + kp * (reference.position[k] - position))
-        torque = np.minimum(np.maximum(demand, -limit), limit)
-        engine.apply_torque(torque)
-        engine.step()
-        return demand, torque
-
-    return drive
-
-
-def _servo(engine: Simulator, reference: Reference, k: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    engine.servo(reference.position[min(k + 1, len(reference.time) - 1)])
-    engine.step()
-    torque = engine.servo_torque()
-    return torque, torque
-
-
-class _Recorder:
-    """Arrays of the whole run, taken before it starts."""
-
-    def __init__(self, steps: int, joints: int) -> None:
-        self._position = np.empty((steps, joints))
-        self._velocity = np.empty((steps, joints))
-        self._demand = np.empty((steps, joints))
-        self._torque = np.empty((steps, joints))
-        self._tool_pose = np.empty((steps, 4, 4))
-        self.contacts: list[tuple[int, Contact]] = []
-
-    def state(self, k: int, engine: Simulator) -> bool:
-        """Record where the arm is; False if that is not finite."""
-        position, velocity = engine.state()
-        self._position[k], self._velocity[k] = position, velocity
-        self._tool_pose[k] = engine.tool_pose()
-        return math.isfinite(position.sum() + velocity.sum())  # one bad number spoils the sum
-
-    def torques(self, k: int, demand: NDArray[np.float64], torque: NDArray[np.float64]) -> None:
-        self._demand[k], self._torque[k] = demand, torque
-
-    def arrays(self, done: int) -> dict[str, NDArray[np.float64]]:
-        return {
-            "position": self._position[:done],
-            "velocity": self._velocity[:done],
-            "torque_demand": self._demand[:done],
-            "torque": self._torque[:done],
-            "tool_pose": self._tool_pose[:done],
-        }
-
-
-def _refuse(arm: Arm, joints: JointTrajectory, rate: float, mode: str, kp: float, kd: float, settle: float) -> None:
+def _refuse(
+    arm: Arm, joints: JointTrajectory, rate: float, mode: str, interpolation: str, gains: Gains, settle: float
+) -> None:
     """Turn down what can not be carried out, before anything is loaded."""
-    if mode not in CAVEATS:
-        raise InvalidArgument(f"mode: '{mode}', expected one of {', '.join(CAVEATS)}.")
+    for name, choice, known in (("mode", mode, MODES), ("interpolation", interpolation, INTERPOLATIONS)):
+        if choice not in known:
+            raise InvalidArgument(f"{name}: '{choice}', expected one of {', '.join(known)}.")
     if not 10.0 <= rate <= 1e5:
         raise InvalidArgument(f"rate: {rate}, expected 10 to 100000 Hz.")
-    for name, value in (("kp", kp), ("kd", kd), ("settle", settle)):
+    for name, value in (*asdict(gains).items(), ("settle", settle)):
         if not 0.0 <= value < np.inf:
             raise InvalidArgument(f"{name}: {value}, expected a number >= 0.")
     _refuse_joints(arm, joints)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.metrics import StageErrors, compare
+from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.simulator import Contact
 from dmpcpp.simulation.verdict import Verdict, judge
 
-CAVEATS = {
-    "computed_torque": "the controller knows the simulated masses exactly; "
-    "model errors, delay and friction are not in it",
-    "position": "the engine's motors are constraints solved inside the step; "
-    "only kinematics and the torque cap are tested",
-}
-"""What each mode can not see."""
+_KNOWS_ALL = "the controller knows the simulated masses exactly; model errors, delay and friction are not in it"
+_RECORDED = (
+    "recorded on a real arm: where the tool was is the forward kinematics of the measured joints; the arm's "
+    "calibration, its flexing and contacts are not in the log"
+)
+_MOTORS = "the engine's motors are constraints solved inside the step; only kinematics and the torque cap are tested"
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,8 @@ class ExecutionLog:
     simulator : str
         Engine and version.
     mode : str
-        "computed_torque" or "position"; ``caveat`` says what the mode can not see.
+        "computed_torque", "position", "position_velocity", "velocity", or "recorded" on a real arm;
+        ``caveat`` says what it can not see.
     rate : float
         Control steps a second [Hz].
     motion : slice
@@ -71,6 +72,8 @@ class ExecutionLog:
     tool_pose : (N, 4, 4)
         By the simulator's own kinematics.
     contacts : tuple of ContactEvent
+    disturbance : Disturbance
+        What the controller did not know.
     """
 
     arm: Arm
@@ -91,11 +94,17 @@ class ExecutionLog:
     desired_tool_pose: NDArray[np.float64]
     tool_pose: NDArray[np.float64]
     contacts: tuple[ContactEvent, ...]
+    disturbance: Disturbance = field(default_factory=Disturbance)
 
     @property
     def caveat(self) -> str:
         """What this mode can not see."""
-        return CAVEATS[self.mode]
+        if self.mode == "recorded":
+            return _RECORDED
+        if self.mode != "computed_torque":
+            return _MOTORS
+        disturbed = self.disturbance != Disturbance()
+        return f"the controller does not know of {self.disturbance}" if disturbed else _KNOWS_ALL
 
     @cached_property
     def errors(self) -> StageErrors:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +12,9 @@ from numpy.typing import NDArray
 from dmpcpp._core import Arm, JointTrajectory
 
 LEAD_ACCELERATION = 5.0  # rad/s^2 (m/s^2): gentle beside what arms can do (10 to 20)
+
+Interpolation = Literal["quintic", "cubic"]
+INTERPOLATIONS: tuple[str, ...] = get_args(Interpolation)
 
 
 @dataclass(frozen=True)
@@ -33,18 +38,27 @@ class Reference:
 
 States = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 """Position, velocity and acceleration, (N, n) each."""
+Between = Callable[[JointTrajectory, NDArray[np.float64]], States]
+"""Interpolates a trajectory at times (N,)."""
 
 
 def sample(
-    arm: Arm, joints: JointTrajectory, rate: float, *, settle: float, from_rest: bool, consistent: bool
+    arm: Arm,
+    joints: JointTrajectory,
+    rate: float,
+    *,
+    settle: float,
+    from_rest: bool,
+    consistent: bool,
+    interpolation: Interpolation = "quintic",
 ) -> Reference:
     """Sample a joint trajectory at ``rate`` [Hz], from rest to rest.
 
-    Between its samples the trajectory is the quintic through their positions, velocities and accelerations. A
-    motion cut from a recording starts and ends in mid-swing: a lead-in runs the arm up to the first state
-    and a lead-out stops it after the last, both with a smoothstep velocity 3 u^2 - 2 u^3 of at most
-    LEAD_ACCELERATION (more where a joint limit is near). Then the last position is held for ``settle``
-    seconds.
+    Between its samples the trajectory is the quintic through their positions, velocities and accelerations, or
+    the cubic through the first two. A motion cut from a recording starts and ends in mid-swing: a lead-in runs
+    the arm up to the first state and a lead-out stops it after the last, both with a smoothstep velocity
+    3 u^2 - 2 u^3 of at most LEAD_ACCELERATION (more where a joint limit is near). Then the last position is
+    held for ``settle`` seconds.
 
     ``consistent`` replaces velocity and acceleration by the differences of the positions,
     qd[k] = (q[k] - q[k-1]) / dt and qdd[k] = (q[k+1] - 2 q[k] + q[k-1]) / dt^2. These are what an engine with
@@ -57,21 +71,34 @@ def sample(
     inside = int(np.floor(duration / dt + 1e-6)) + 1
     after = int(np.ceil((lead_out + settle) / dt - 1e-9))
     steps = np.arange(-before - 1, inside + after + 1)  # one more on either side for the differences
-    states = _states(joints, steps / rate, lead_in, lead_out)
+    states = _states(joints, steps / rate, lead_in, lead_out, _cubic if interpolation == "cubic" else _quintic)
     if consistent:
         states = _differences(states[0], dt)
     position, velocity, acceleration = (state[1:-1] for state in states)
     return Reference(steps[1:-1] / rate, position, velocity, acceleration, slice(before, before + inside))
 
 
-def _states(joints: JointTrajectory, time: NDArray[np.float64], lead_in: float, lead_out: float) -> States:
+def states_at(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
+    """Position, velocity and acceleration at ``time`` (N,) s after the first sample, by the quintic.
+
+    Before the first sample and after the last the trajectory stands still there.
+    """
+    end = joints.time[-1] - joints.time[0]
+    position, velocity, acceleration = _quintic(joints, np.clip(time, 0.0, end) + joints.time[0])
+    moving = ((time >= 0.0) & (time <= end))[:, None]
+    return position, np.where(moving, velocity, 0.0), np.where(moving, acceleration, 0.0)
+
+
+def _states(
+    joints: JointTrajectory, time: NDArray[np.float64], lead_in: float, lead_out: float, between: Between
+) -> States:
     """The whole reference at ``time``, counted from the first sample of the trajectory."""
     end = joints.time[-1] - joints.time[0]
     early, late = time < 0.0, time > end
     position, back, acceleration = _ramp(joints.position[0], -joints.velocity[0], -time[early], lead_in)
     pieces = (
         (position, -back, acceleration),  # the lead-in is a lead-out seen backwards
-        _quintic(joints, time[~early & ~late] + joints.time[0]),
+        between(joints, time[~early & ~late] + joints.time[0]),
         _ramp(joints.position[-1], joints.velocity[-1], time[late] - end, lead_out),
     )
     position, velocity, acceleration = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
@@ -109,10 +136,7 @@ def _ramp(
 
 def _quintic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
     """The piecewise quintic with position, velocity and acceleration of every sample: C2."""
-    knots = joints.time
-    k = np.clip(np.searchsorted(knots, time, side="right") - 1, 0, len(knots) - 2)
-    h = (knots[k + 1] - knots[k])[:, None]
-    s = (time - knots[k])[:, None]
+    k, h, s = _intervals(joints.time, time)
     p, v, a = joints.position[k], joints.velocity[k], joints.acceleration[k]
     gap = joints.position[k + 1] - (p + h * (v + 0.5 * h * a))
     slope = h * (joints.velocity[k + 1] - (v + h * a))
@@ -124,6 +148,24 @@ def _quintic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
         v + s * (a + s * (3 * c3 + s * (4 * c4 + s * 5 * c5))),
         a + s * (6 * c3 + s * (12 * c4 + s * 20 * c5)),
     )
+
+
+def _cubic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
+    """The piecewise cubic with position and velocity of every sample (Hermite): C1."""
+    k, h, s = _intervals(joints.time, time)
+    p, v = joints.position[k], joints.velocity[k]
+    gap = (joints.position[k + 1] - p) / h - v
+    slope = joints.velocity[k + 1] - v
+    c2, c3 = (3 * gap - slope) / h, (slope - 2 * gap) / h**2
+    return p + s * (v + s * (c2 + s * c3)), v + s * (2 * c2 + s * 3 * c3), 2 * c2 + 6 * s * c3
+
+
+def _intervals(
+    knots: NDArray[np.float64], time: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    """The sample before each time, the length (N, 1) of the interval that it opens, the time (N, 1) in it."""
+    k = np.clip(np.searchsorted(knots, time, side="right") - 1, 0, len(knots) - 2)
+    return k, (knots[k + 1] - knots[k])[:, None], (time - knots[k])[:, None]
 
 
 def _differences(position: NDArray[np.float64], dt: float) -> States:

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation.convex_pieces import convex_pieces
+from dmpcpp.simulation.disturbance import Disturbance
+from dmpcpp.simulation.urdf_changes import add_payload, freeze, scale_masses
 
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -43,8 +45,18 @@ class RobotDescription:
     neighbours: frozenset[frozenset[str]]
 
 
-def describe(arm: Arm, folder: Path, *, visuals: bool = False) -> RobotDescription:
+def describe(
+    arm: Arm,
+    folder: Path,
+    *,
+    visuals: bool = False,
+    disturbance: Disturbance | None = None,
+    only_the_arm_moves: bool = False,
+) -> RobotDescription:
     """Prepare ``arm.urdf`` for a physics engine.
+
+    The URDF's Coulomb friction (xarm6 states 1 Nm for every joint) is left out: no controller here
+    compensates for it. State one in the disturbance instead.
 
     Parameters
     ----------
@@ -53,25 +65,56 @@ def describe(arm: Arm, folder: Path, *, visuals: bool = False) -> RobotDescripti
         Where the convex pieces of the collision meshes are written; the engine needs them while it loads.
     visuals : bool
         Keep what is only drawn; without it loading is several times faster.
+    disturbance : Disturbance, optional
+        Its masses and its payload are put in.
+    only_the_arm_moves : bool
+        Fix every other joint (fingers) in the middle of its range.
 
     Raises
     ------
     InvalidArgument
-        A mesh can not be found, or an inertia is not made of finite numbers.
+        A mesh can not be found, an inertia is not made of finite numbers, or a joint of the arm follows
+        another.
     """
     robot = ET.fromstring(arm.urdf)
+    _refuse_folded_joints(robot, arm)
     links = robot.findall("link")
     for link in links:
-        if not visuals:
-            for visual in link.findall("visual"):
-                link.remove(visual)
-        for mesh in link.iter("mesh"):
-            mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), arm.folder, link.get("name", ""))))
-        for collision in link.findall("collision"):
-            _split_into_convex_pieces(link, collision, folder)
+        _prepare_shapes(link, arm.folder, folder, visuals)
     repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
+    _change(robot, arm, disturbance or Disturbance())
+    if only_the_arm_moves:
+        freeze(robot, arm.joint_names)
     groups = _rigid_groups(robot)
     return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
+
+
+def links_of(arm: Arm) -> frozenset[str]:
+    """Names of all links of the robot that the arm is a part of."""
+    return frozenset(link.get("name", "") for link in ET.fromstring(arm.urdf).findall("link"))
+
+
+def _change(robot: ET.Element, arm: Arm, disturbance: Disturbance) -> None:
+    for dynamics in robot.iterfind("joint/dynamics"):
+        dynamics.attrib.pop("friction", None)
+    if disturbance.mass_error:
+        scale_masses(robot, disturbance.mass_factors(link.get("name", "") for link in robot.findall("link")))
+    if disturbance.payload:
+        add_payload(robot, arm.tip, disturbance.payload, disturbance.payload_offset)
+
+
+def _refuse_folded_joints(robot: ET.Element, arm: Arm) -> None:
+    """A mimic joint between base and tip moves with its master in ``Arm``, but would be held by the engines."""
+    above = {_ends(joint)[1]: joint for joint in robot.findall("joint")}
+    link = arm.tip
+    while link != arm.base and link in above:
+        joint = above[link]
+        if joint.get("type") != "fixed" and joint.get("name") not in arm.joint_names:
+            raise InvalidArgument(
+                f"arm: joint '{joint.get('name')}' between '{arm.base}' and '{arm.tip}' mimics another; the physics "
+                "engines can not couple them. Choose a base and a tip without it."
+            )
+        link = _ends(joint)[0]
 
 
 def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:
@@ -103,6 +146,16 @@ def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _second_moment(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(0.5 * np.trace(inertia) * np.eye(3) - inertia)
+
+
+def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool) -> None:
+    """Find the meshes, and make those that collide convex."""
+    for visual in [] if visuals else link.findall("visual"):
+        link.remove(visual)
+    for mesh in link.iter("mesh"):
+        mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), urdf_folder, link.get("name", ""))))
+    for collision in link.findall("collision"):
+        _split_into_convex_pieces(link, collision, folder)
 
 
 def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: Path) -> None:

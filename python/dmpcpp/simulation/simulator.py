@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Literal, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,30 @@ class Contact:
     depth: float
 
 
+@dataclass(frozen=True)
+class Clearance:
+    """How far a link is from another link, the floor or an obstacle.
+
+    Attributes
+    ----------
+    link, other : str
+        As in ``Contact``.
+    distance : float
+        Between the collision shapes [m]; negative where they overlap.
+    """
+
+    link: str
+    other: str
+    distance: float
+
+
+def kind_of(other: str, links: Collection[str]) -> Literal["self", "floor", "object"]:
+    """What the ``other`` of a contact or clearance is, for a robot with these links."""
+    if other in links:
+        return "self"
+    return "floor" if other == FLOOR else "object"
+
+
 class Simulator(Protocol):
     """An arm with a fixed base in a world with gravity, advanced one ``time_step`` at a time.
 
@@ -52,17 +77,28 @@ class Simulator(Protocol):
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Measured joint position (n,) rad and velocity (n,) rad/s."""
 
-    def inverse_dynamics(self, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Torque (n,) Nm for ``acceleration`` (n,) rad/s^2 in this state, gravity and damping included."""
+    def inverse_dynamics(
+        self,
+        acceleration: NDArray[np.float64],
+        position: NDArray[np.float64] | None = None,
+        velocity: NDArray[np.float64] | None = None,
+    ) -> NDArray[np.float64]:
+        """Torque (n,) Nm for ``acceleration`` (n,) rad/s^2, gravity and the URDF's damping included.
+
+        In the state of the arm, or in one that is given: ``position`` (n,) rad and ``velocity`` (n,) rad/s.
+        """
 
     def apply_torque(self, torque: NDArray[np.float64]) -> None:
         """Set the joint torque (n,) Nm of the next step."""
 
-    def servo(self, position: NDArray[np.float64]) -> None:
-        """Let the engine's own motors reach ``position`` (n,) rad in the next step, if the torque allows."""
+    def servo(self, velocity: NDArray[np.float64]) -> None:
+        """Let the engine's own motors bring the joints to ``velocity`` (n,) rad/s by the end of the next step.
+
+        If the effort limits allow: within them the motors give whatever torque that takes.
+        """
 
     def servo_torque(self) -> NDArray[np.float64]:
-        """Torque (n,) Nm that the engine's position motors gave in the last step."""
+        """Torque (n,) Nm that the engine's motors gave in the last step."""
 
     def step(self) -> None:
         """Advance by ``time_step``."""
@@ -71,10 +107,13 @@ class Simulator(Protocol):
         """Measured pose (4, 4) of ``arm.tip`` by the engine's own forward kinematics."""
 
     def contacts(self) -> list[Contact]:
-        """Contacts found at the start of the last step."""
+        """Contacts found in the last step: by Bullet at its start, by MuJoCo at its end."""
 
     def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
         """Contacts with the arm put at ``position`` (n,) rad, at rest; no dynamics. It stays there."""
+
+    def clearances_at(self, position: NDArray[np.float64], within: float) -> list[Clearance]:
+        """Pairs nearer than ``within`` [m] with the arm put at ``position`` (n,) rad, at rest. It stays there."""
 
     def __enter__(self) -> Self:
         """The world, open until the end of the block."""

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp.arms import acceleration_limit
 from dmpcpp.metrics import angle_errors, position_errors
-from dmpcpp.simulation.simulator import FLOOR
+from dmpcpp.simulation.robot_description import links_of
+from dmpcpp.simulation.simulator import kind_of
 
 if TYPE_CHECKING:
     from dmpcpp.simulation.execution_log import ExecutionLog
@@ -30,7 +32,7 @@ class Check:
     limit : float
         What was allowed: the most, for a margin the least.
     unit : str
-        "m", "rad", "1" (a ratio), "steps", "links".
+        "m", "rad", "s", "1" (a ratio), "steps", "links", "checks".
     time : float or None
         Where in the execution the worst is [s].
     detail : str
@@ -64,9 +66,11 @@ class Tolerances:
     ik_angle: float = 1e-5
     joint_margin: float = 0.0
     velocity_ratio: float = 1.0
+    acceleration_ratio: float = 1.0
     torque_ratio: float = 1.0
     self_collision: int = 0
     floor_contact: int = 0
+    object_contact: int = 0
     repaired_inertias: int = 0
     kinematics_mismatch: float = 1e-6
 
@@ -178,6 +182,7 @@ def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     yield Check("joint_margin", value >= limit - ROUNDING, value, limit, "rad", time, detail)
     speed = _Series(log.time, np.abs(log.velocity) / arm.velocity_limit, names)
     yield _at_most("velocity_ratio", speed, tolerances.velocity_ratio, "1")
+    yield _at_most("acceleration_ratio", _accelerations(log), tolerances.acceleration_ratio, "1")
     torque = _Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, names)
     yield _at_most("torque_ratio", torque, tolerances.torque_ratio, "1")
     clipped = (np.abs(log.torque) >= arm.effort_limit).any(axis=1)
@@ -185,9 +190,16 @@ def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     yield Check("torque_clipped", not clipped.any(), int(clipped.sum()), 0, "steps", when)
 
 
+def _accelerations(log: ExecutionLog) -> _Series:
+    """Differences of the measured velocity over a step, as ratios to what the maker allows (``arms``)."""
+    values = np.abs(np.diff(log.velocity, axis=0)) * log.rate / acceleration_limit(log.arm)
+    return _Series(log.time[1:], values, tuple(log.arm.joint_names))
+
+
 def _contacts(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
-    for name, is_floor in (("self_collision", False), ("floor_contact", True)):
-        events = [event for event in log.contacts if (event.contact.other == FLOOR) == is_floor]
+    links = links_of(log.arm)
+    for name, kind in (("self_collision", "self"), ("floor_contact", "floor"), ("object_contact", "object")):
+        events = [event for event in log.contacts if kind_of(event.contact.other, links) == kind]
         count, limit = len({event.step for event in events}), getattr(tolerances, name)
         deepest = max(events, key=lambda event: event.contact.depth, default=None)
         detail = ""

@@ -1,0 +1,28 @@
+"""Tables that several commands print."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from dmpcpp.simulation import Check
+
+
+def checks_table(checks: Iterable[Check]) -> Table:
+    """One row a check: whether it held, its number and limit, and where."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(title="checks", title_justify="left")
+    for title in ("", "check", "value", "limit", "unit", "where"):
+        table.add_column(title, justify="right" if title in ("value", "limit") else "left", no_wrap=title == "check")
+    for check in checks:
+        where = f"{check.time:.2f} s " if check.time is not None else ""
+        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
+        table.add_row(
+            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, escape(where + check.detail)
+        )
+    return table

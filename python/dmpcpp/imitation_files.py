@@ -1,0 +1,68 @@
+"""An imitation as files: the model, the plan, the joints, a picture and the summary."""
+
+from __future__ import annotations
+
+import json
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp import export, metrics, motion, plot
+from dmpcpp._core import save
+from dmpcpp.atomic import replacing, write_text
+
+if TYPE_CHECKING:
+    from dmpcpp.imitation import Imitation
+
+__all__ = ["write"]
+
+
+def write(run: Imitation, folder: str | PathLike[str]) -> None:
+    """Write model.json, plan.npz, joints.csv, picture.png and summary.json, each whole or not at all.
+
+    The summary comes last: a folder that has one has all.
+
+    Raises
+    ------
+    FileError
+        The folder or a file can not be written.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "summary.json").unlink(missing_ok=True)
+    arm = run.log.arm
+    save(run.model, folder / "model.json")
+    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip)
+    export.write_joints(folder / "joints.csv", run.joints)
+    _picture(run, folder / "picture.png")
+    write_text(folder / "summary.json", json.dumps(run.summary(), indent=2, allow_nan=False) + "\n")
+
+
+def _picture(run: Imitation, path: Path) -> None:
+    demonstrated = motion.poses(run.recording)
+    during = run.log.motion
+    again = run.model.rollout_at(run.recording.time).pose
+    solved = run.log.arm.forward_kinematics(run.joints.position)
+    executed = run.log.tool_pose[during]
+
+    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
+        return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
+
+    with replacing(path) as temporary:
+        plot.picture(
+            temporary,
+            demonstrated=demonstrated,
+            planned=run.plan.pose,
+            executed=executed,
+            errors=(
+                curve("demonstration → DMP", run.slowdown * run.recording.time, demonstrated, again),
+                curve("DMP → FK(IK)", run.plan.time, run.plan.pose, solved),
+                curve("FK(IK) → executed", run.log.time[during], run.log.desired_tool_pose[during], executed),
+            ),
+            title=f"{run.recording.source} ({run.recording.body}) on {run.log.arm.name}",
+            note=f"{'all checks held' if run.ok else 'checks failed'}; {run.slowdown:.2f} x the recorded duration; "
+            f"{run.log.simulator}, {run.log.mode}",
+        )

@@ -1,0 +1,79 @@
+"""Changes to a URDF that every engine then sees alike: other masses, a payload, joints that do not move."""
+
+from __future__ import annotations
+
+import warnings
+import xml.etree.ElementTree as ET
+from collections.abc import Collection, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+PAYLOAD_LINK = "dmpcpp_payload"
+_PAYLOAD_RADIUS = 0.03  # m
+
+
+def scale_masses(robot: ET.Element, factors: Mapping[str, float]) -> None:
+    """Multiply mass and inertia of the named links."""
+    for link in robot.findall("link"):
+        factor = factors.get(link.get("name", ""), 1.0)
+        for element in (*link.findall("inertial/mass"), *link.findall("inertial/inertia")):
+            for name, value in element.items():
+                element.set(name, repr(float(value) * factor))
+
+
+def add_payload(robot: ET.Element, tip: str, mass: float, offset: tuple[float, float, float]) -> None:
+    """Fix a solid sphere of ``mass`` [kg] to the tip, without a collision shape."""
+    inertia = repr(0.4 * mass * _PAYLOAD_RADIUS**2)
+    link = ET.SubElement(robot, "link", name=PAYLOAD_LINK)
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "mass", value=repr(mass))
+    moments = {"ixx": inertia, "iyy": inertia, "izz": inertia, "ixy": "0", "ixz": "0", "iyz": "0"}
+    ET.SubElement(inertial, "inertia", moments)
+    joint = ET.SubElement(robot, "joint", name=f"{PAYLOAD_LINK}_joint", type="fixed")
+    ET.SubElement(joint, "parent", link=tip)
+    ET.SubElement(joint, "child", link=PAYLOAD_LINK)
+    ET.SubElement(joint, "origin", xyz=_text(offset))
+
+
+def freeze(robot: ET.Element, moving: Collection[str]) -> None:
+    """Fix every joint that is not ``moving`` in the middle of its range, as ``Bullet`` holds it by a motor."""
+    for joint in robot.findall("joint"):
+        if joint.get("type") != "fixed" and joint.get("name") not in moving:
+            _displace(joint, _middle(joint))
+            joint.set("type", "fixed")
+            for name in ("axis", "limit", "dynamics", "mimic", "safety_controller", "calibration"):
+                for element in joint.findall(name):
+                    joint.remove(element)
+
+
+def _middle(joint: ET.Element) -> float:
+    limit = joint.find("limit")
+    lower, upper = (float(limit.get(end, 0.0)) if limit is not None else 0.0 for end in ("lower", "upper"))
+    return 0.5 * (lower + upper) if lower < upper else 0.0
+
+
+def _displace(joint: ET.Element, value: float) -> None:
+    """Move the joint's origin to where the child stands at ``value`` [rad or m]."""
+    origin = joint.find("origin")
+    origin = ET.SubElement(joint, "origin") if origin is None else origin
+    place, turn = (_vector(origin.get(name, "0 0 0")) for name in ("xyz", "rpy"))
+    element = joint.find("axis")
+    axis = _vector("1 0 0" if element is None else element.get("xyz", "1 0 0"))
+    axis = axis / np.linalg.norm(axis)
+    rotation = Rotation.from_euler("xyz", turn)
+    if joint.get("type") == "prismatic":
+        origin.set("xyz", _text(place + rotation.apply(value * axis)))
+    else:
+        with warnings.catch_warnings():  # in gimbal lock scipy warns and gives angles of the same rotation
+            warnings.simplefilter("ignore", UserWarning)
+            origin.set("rpy", _text((rotation * Rotation.from_rotvec(value * axis)).as_euler("xyz")))
+
+
+def _vector(text: str) -> NDArray[np.float64]:
+    return np.array([float(word) for word in text.split()])
+
+
+def _text(vector: Collection[float] | NDArray[np.float64]) -> str:
+    return " ".join(repr(float(value)) for value in vector)

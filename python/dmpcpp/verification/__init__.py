@@ -1,0 +1,10 @@
+"""A joint log of a real arm held against the plan that it carried out: the measures and checks of a simulated run.
+
+``verify(arm, plan, log)`` finds out when in the log the plan began, and gives a ``Verification``.
+"""
+
+from dmpcpp.verification.joint_log import JointLog, read_log
+from dmpcpp.verification.lag import estimate_lag
+from dmpcpp.verification.verify import Verification, verify
+
+__all__ = ["JointLog", "Verification", "estimate_lag", "read_log", "verify"]

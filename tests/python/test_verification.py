@@ -1,0 +1,345 @@
+"""Logs of an arm, made by simulation with a known lag and known faults, held against their plan."""
+
+import csv
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pybullet", reason="the extra `sim`")
+
+from click.testing import CliRunner
+from dmpcpp import arms, export, simulation, verification
+from dmpcpp.cli import main
+from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.simulation import Bullet, Disturbance, Tolerances
+from dmpcpp.verification import JointLog
+
+from benchmarks.joint_motions import HOME, reach, trajectory
+
+PANDA = arms.find("panda")
+NAMES = tuple(PANDA.joint_names)
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return reach(PANDA, np.add(HOME["panda"], 0.3), 2.0)
+
+
+def recorded(log, lag=0.0, every=1, noise=0.0, seed=0, velocity=True, torque=True):
+    """The log of an arm whose clock shows ``lag`` when the plan begins."""
+    keep = slice(None, None, every)
+    shake = noise * np.random.default_rng(seed).standard_normal(log.position[keep].shape)
+    return JointLog(
+        log.time[keep] + lag,
+        log.position[keep] + shake,
+        log.velocity[keep] if velocity else None,
+        log.torque[keep] if torque else None,
+        NAMES,
+        "robot.csv",
+    )
+
+
+@pytest.fixture(scope="module")
+def executed(plan):
+    return simulation.execute(PANDA, plan)
+
+
+@pytest.mark.parametrize("lag", [-3.2, 0.0, 0.0137, 0.25, 1.76e9])
+@pytest.mark.parametrize("every", [1, 4, 8])
+def test_the_lag_is_found_between_the_samples_on_any_clock(plan, executed, lag, every):
+    found = verification.estimate_lag(plan, recorded(executed, lag, every))
+    assert found == pytest.approx(lag, abs=2e-5, rel=1e-15)
+
+
+def test_the_lag_is_found_under_encoder_noise(plan, executed):
+    log = recorded(executed, 0.0423, every=4, noise=1e-4)
+    assert verification.estimate_lag(plan, log) == pytest.approx(0.0423, abs=2e-4)
+
+
+def test_a_joint_that_is_mounted_off_does_not_move_the_lag(plan, executed):
+    log = recorded(executed, 0.031)
+    off = replace(log, position=log.position + np.linspace(0.0, 0.02, 7))
+    assert verification.estimate_lag(plan, off) == pytest.approx(0.031, abs=2e-5)
+
+
+def test_of_the_cycles_of_a_repeated_motion_the_lag_that_covers_all_is_found():
+    time = np.linspace(0.0, 6.0, 601)
+    joints = trajectory(PANDA, time, np.array(HOME["panda"]) + 0.2 * np.sin(np.pi * time)[:, None])
+    log = JointLog(time + 5.0, joints.position, None, None, NAMES)
+    assert verification.estimate_lag(joints, log) == pytest.approx(5.0, abs=1e-5)
+
+
+def test_a_sound_run_is_verified_with_the_measures_of_the_simulated_one(plan, executed):
+    result = verification.verify(PANDA, plan, recorded(executed, 0.0137), simulator=Bullet)
+    assert result.ok, [check for check in result.checks if not check.ok]
+    assert result.lag == pytest.approx(0.0137, abs=1e-5)
+    assert result.comparison.errors.position_max <= 5e-6  # what the lag's last microseconds leave
+    simulated = {check.name: check.value for check in executed.verdict.checks}
+    found = {check.name: check.value for check in result.checks}
+    for name in ("torque_ratio", "joint_margin", "velocity_ratio"):
+        assert found[name] == pytest.approx(simulated[name], rel=1e-2)
+    assert {"log_coverage", "log_gap", "path_self_clearance", "path_floor_clearance"} <= set(found)
+    assert result.log.mode == "recorded" and "real arm" in result.log.caveat
+    assert result.velocity_margin == pytest.approx(1.0 - found["velocity_ratio"], rel=1e-9)
+    json.dumps(result.summary(), allow_nan=False)
+
+
+def test_without_velocity_and_torque_the_first_is_derived_and_the_second_not_judged(plan, executed):
+    whole = verification.verify(PANDA, plan, recorded(executed))
+    bare = verification.verify(PANDA, plan, recorded(executed, velocity=False, torque=False))
+    values = [{check.name: check.value for check in each.checks} for each in (whole, bare)]
+    assert values[0]["velocity_ratio"] == pytest.approx(values[1]["velocity_ratio"], rel=1e-3)
+    assert set(values[0]) - set(values[1]) == {"torque_ratio", "torque_clipped"}
+    assert bare.torque_margin is None
+
+
+def test_encoder_noise_is_no_acceleration(plan, executed):
+    log = recorded(executed, noise=1e-5, velocity=False)
+    result = verification.verify(PANDA, plan, log, tolerances=Tolerances(acceleration_ratio=1.0))
+    assert {check.name: check.ok for check in result.checks}["acceleration_ratio"]
+    raw = verification.verify(PANDA, plan, log, cutoff=400.0)
+    assert not {check.name: check.ok for check in raw.checks}["acceleration_ratio"]
+
+
+SOFT = {"kp": 100.0, "kd": 20.0}
+
+
+def heavy(plan):
+    return recorded(simulation.execute(PANDA, plan, disturbance=Disturbance(payload=3.0), **SOFT))
+
+
+def cut(plan):
+    log = recorded(simulation.execute(PANDA, plan))
+    keep = log.time < 1.5
+    return JointLog(log.time[keep], log.position[keep], log.velocity[keep], log.torque[keep], NAMES)
+
+
+def silent(plan):
+    log = recorded(simulation.execute(PANDA, plan))
+    keep = (log.time < 0.5) | (log.time > 0.7)
+    return JointLog(log.time[keep], log.position[keep], log.velocity[keep], log.torque[keep], NAMES)
+
+
+def strained(plan):
+    log = recorded(simulation.execute(PANDA, plan))
+    torque = log.torque.copy()
+    torque[400, 2] = 90.0
+    return replace(log, torque=torque)
+
+
+@pytest.mark.parametrize(
+    "fault, names",
+    [
+        (heavy, {"tracking_position_rmse", "tracking_position_max", "settle_error"}),
+        (cut, {"log_coverage"}),
+        (silent, {"log_gap"}),
+        (strained, {"torque_ratio", "torque_clipped"}),
+    ],
+)
+def test_a_fault_in_the_log_is_caught(plan, fault, names):
+    result = verification.verify(PANDA, plan, fault(plan))
+    failed = {check.name for check in result.checks if not check.ok}
+    assert names <= failed
+    assert not result.ok
+
+
+def test_an_arm_in_the_floor_is_seen_in_the_geometry():
+    joints = reach(PANDA, [0.0, 0.9, 0.0, -1.75, 0.0, 2.55, 0.8], 3.0)
+    log = JointLog(joints.time, joints.position, None, None, NAMES)
+    result = verification.verify(PANDA, joints, log, simulator=Bullet)
+    assert "path_floor_clearance" in {check.name for check in result.checks if not check.ok}
+
+
+def test_joints_are_found_by_name_in_any_order_among_others(plan, executed):
+    log = recorded(executed, 0.1)
+    order = [3, 1, 6, 0, 2, 5, 4]
+    finger = np.zeros((len(log.time), 1))
+    mixed = JointLog(
+        log.time,
+        np.hstack([log.position[:, order], finger]),
+        None,
+        None,
+        (*(NAMES[k] for k in order), "panda_finger_joint1"),
+    )
+    assert np.array_equal(mixed.of(NAMES).position, log.position)
+    assert verification.verify(PANDA, plan, mixed).ok
+
+
+# ---- files ------------------------------------------------------------------------------------------------------
+
+
+def write_csv(path, log, scale=1.0, velocity="_vel", torque="_torque"):
+    header = ["time", *NAMES, *(n + velocity for n in NAMES), *(n + torque for n in NAMES)]
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(header)
+        writer.writerows(np.column_stack([log.time * scale, log.position, log.velocity, log.torque]).tolist())
+    return path
+
+
+@pytest.mark.parametrize("torque", ["_torque", "_effort", "_eff"])
+def test_a_csv_is_read_as_it_was_written(tmp_path, executed, torque):
+    log = recorded(executed, 12.5, every=10)
+    read = verification.read_log(write_csv(tmp_path / "robot.csv", log, 1e3, torque=torque), time_unit="ms")
+    assert read.joint_names == NAMES
+    assert np.allclose(read.time, log.time, atol=1e-12)
+    for name in ("position", "velocity", "torque"):
+        assert np.array_equal(getattr(read, name), getattr(log, name)), name
+
+
+def test_the_plan_itself_is_a_log_without_torque(tmp_path, plan):
+    export.write_joints(tmp_path / "joints.csv", plan)
+    read = verification.read_log(tmp_path / "joints.csv")
+    assert read.joint_names == NAMES
+    assert read.torque is None
+    assert np.array_equal(read.velocity, plan.velocity)
+
+
+def write_bag(path, log, topics=("/joint_states",), again=0):
+    rosbags = pytest.importorskip("rosbags.rosbag2")
+    from rosbags.typesys import Stores, get_typestore
+
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    names = ("sensor_msgs/msg/JointState", "std_msgs/msg/Header", "builtin_interfaces/msg/Time")
+    state, header, stamp = (types.types[name] for name in names)
+    with rosbags.Writer(path, version=9) as writer:
+        connections = [writer.add_connection(topic, state.__msgtype__, typestore=types) for topic in topics]
+        for k in [*range(len(log.time)), *range(again)]:
+            now = round(1e9 * log.time[k])
+            head = header(stamp=stamp(sec=now // 10**9, nanosec=now % 10**9), frame_id="")
+            order = np.arange(7) if k % 2 else np.arange(7)[::-1]  # a publisher may change it
+            values = {
+                "position": log.position[k, order],
+                "velocity": log.velocity[k, order],
+                "effort": log.torque[k, order],
+            }
+            message = state(header=head, name=[NAMES[i] for i in order], **values)
+            for connection in connections:
+                writer.write(connection, now, types.serialize_cdr(message, state.__msgtype__))
+    return path
+
+
+def test_a_ros_2_bag_of_joint_states_is_read(tmp_path, plan, executed):
+    log = recorded(executed, 1.76e9, every=4)
+    read = verification.read_log(write_bag(tmp_path / "bag", log, again=3))
+    assert set(read.joint_names) == set(NAMES)
+    assert np.allclose(read.time, log.time - log.time[0], atol=1e-6)
+    for name in ("position", "velocity", "torque"):
+        assert np.array_equal(getattr(read.of(NAMES), name), getattr(log, name)), name
+    assert "3 messages" in read.notes[1]
+    result = verification.verify(PANDA, plan, read)
+    assert result.ok, [check for check in result.checks if not check.ok]
+    assert result.lag == pytest.approx(-executed.time[0], abs=1e-4)
+
+
+def test_of_several_topics_one_is_chosen(tmp_path, executed):
+    log = recorded(executed, 10.0, every=50)
+    bag = write_bag(tmp_path / "bag", log, ("/left/joint_states", "/right/joint_states"))
+    with pytest.raises(InvalidArgument, match="joint states are on /left/joint_states, /right/joint_states"):
+        verification.read_log(bag)
+    with pytest.raises(InvalidArgument, match="'/up' has no joint states"):
+        verification.read_log(bag, topic="/up")
+    assert len(verification.read_log(bag, topic="/right/joint_states").time) == len(log.time)
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("", "log.csv: line 1, expected a header"),
+        ("a,b\n1,2\n", "line 1, expected a header: time,<joints>"),
+        ("time\n1\n", "line 1, no column of a joint"),
+        ("time,a\n0,1\n1\n", "line 3, 1 cells, expected 2"),
+        ("time,a\n0,1\n1,x\n", "log.csv: line 3, a: 'x', expected a number"),
+        ("time,a\n0,1\n1,nan\n", "line 3, a: nan, expected a finite number"),
+        ("time,a\n0,1\n1,1\n2,1\n", r"3 sample\(s\), expected at least 4"),
+        ("time,a\n0,1\n1,1\n1,1\n2,1\n", r"time\[2\]: 1 s after 1 s, expected later"),
+        ("time,a,a\n0,1,1\n", "each name once"),
+    ],
+)
+def test_a_damaged_csv_is_refused_with_its_line(tmp_path, text, message):
+    path = tmp_path / "log.csv"
+    path.write_text(text)
+    with pytest.raises(InvalidArgument, match=message):
+        verification.read_log(path)
+
+
+def test_what_is_no_bag_and_what_is_not_there_are_refused(tmp_path):
+    pytest.importorskip("rosbags")
+    (tmp_path / "x.db3").write_bytes(b"nothing")
+    with pytest.raises((InvalidArgument, FileError), match=r"x\.db3"):
+        verification.read_log(tmp_path / "x.db3")
+    with pytest.raises(FileError, match="no such file"):
+        verification.read_log(tmp_path / "none.csv")
+
+
+def test_what_does_not_fit_is_refused(plan, executed):
+    log = recorded(executed)
+    with pytest.raises(InvalidArgument, match="no joint 'lbr_iiwa_joint_1'; the log has panda_joint1"):
+        log.of(arms.find("iiwa").joint_names)
+    with pytest.raises(InvalidArgument, match=r"expected those of the arm"):
+        verification.verify(arms.find("iiwa"), plan, log)
+    with pytest.raises(InvalidArgument, match="expected at least half of the plan's 2 s"):
+        short = log.time < log.time[0] + 0.5
+        verification.verify(PANDA, plan, JointLog(log.time[short], log.position[short], None, None, NAMES))
+    with pytest.raises(InvalidArgument, match="the plan does not move"):
+        still = replace(plan, position=np.tile(plan.position[0], (len(plan.time), 1)))
+        still = replace(still, velocity=0 * plan.velocity, acceleration=0 * plan.acceleration)
+        verification.verify(PANDA, still, log)
+    with pytest.raises(InvalidArgument, match="cutoff: 0"):
+        verification.verify(PANDA, plan, log, cutoff=0.0)
+
+
+# ---- the command line -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def files(tmp_path, plan, executed):
+    export.write_joints(tmp_path / "joints.csv", plan)
+    log = write_csv(tmp_path / "robot.csv", recorded(executed, 0.0137))
+    return SimpleNamespace(folder=tmp_path, plan=tmp_path / "joints.csv", log=log)
+
+
+def command(*words):
+    return CliRunner().invoke(main, ["verify", *map(str, words)])
+
+
+def test_the_command_verifies_and_states_the_lag(files):
+    for plan in (files.plan, files.folder):
+        result = command(plan, files.log)
+        assert result.exit_code == 0, result.output
+        assert "13.700 ms" in result.output
+        assert "verified" in result.output and "recorded on a real arm" in " ".join(result.output.split())
+
+
+def test_its_json_is_the_summary(files):
+    result = command(files.plan, files.log, "--json", "--simulator", "none")
+    summary = json.loads(result.stdout)
+    assert summary["verdict"] == "pass"
+    assert summary["lag"] == pytest.approx(0.0137, abs=1e-5)
+    assert {"errors", "dtw", "frechet", "sparc"} <= set(summary["comparison"])
+
+
+def test_a_limit_that_is_not_kept_is_exit_status_3(files):
+    result = command(files.plan, files.log, "--simulator", "none", "--tolerance", "velocity_ratio=0.01")
+    assert result.exit_code == 3
+    assert "not verified" in result.output and "velocity_ratio" in result.output
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (("--tolerance", "speed=1"), "expected NAME=VALUE with a NAME of position_rmse"),
+        (("--tolerance", "position_max=x"), "expected a number after '='"),
+        (("--time-unit", "h"), "time_unit: 'h', expected one of s, ms, us, ns"),
+        (("--arm", "iiwa"), "expected those of the arm"),
+        (("--low-pass", "-1"), "cutoff: -1.0"),
+    ],
+)
+def test_wrong_usage_is_one_line_and_exit_status_2(files, words, message):
+    result = command(files.plan, files.log, *words)
+    assert result.exit_code == 2
+    assert message in result.output
+    assert "Traceback" not in result.output
