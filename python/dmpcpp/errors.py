@@ -2,8 +2,17 @@
 
 from dmpcpp._core import FileError, InvalidArgument
 
-__all__ = ["FileError", "InvalidArgument", "MissingDependency"]
+__all__ = ["FileError", "InvalidArgument", "MissingDependency", "NotStated"]
 
 
 class MissingDependency(ImportError):
     """An optional package is not installed; the message names the extra that brings it."""
+
+
+class NotStated(InvalidArgument):
+    """A file does not say something and the caller has to; `names` lists the parameters that do."""
+
+    def __init__(self, names: str | tuple[str, ...], message: str) -> None:
+        """Take the parameter or parameters, one of which is to be stated, and the message."""
+        super().__init__(message)
+        self.names = (names,) if isinstance(names, str) else names

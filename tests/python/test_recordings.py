@@ -125,7 +125,7 @@ def test_a_folder_is_a_file_error(tmp_path):
 def test_an_unknown_format_and_one_that_can_not_be_told_list_the_formats(tmp_path):
     path = tmp_path / "words.txt"
     path.write_text("these are words\n")
-    with pytest.raises(InvalidArgument, match=r"can not be told.*'deepmimic'.*'tum'.*'table'.*'arrays'"):
+    with pytest.raises(InvalidArgument, match=r"can not be told.*'arrays'.*'deepmimic'.*'table'.*'tum'"):
         recordings.load(path)
     with pytest.raises(InvalidArgument, match=r"format: 'xml', expected one of.*'tum'"):
         recordings.load(path, format="xml")
