@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
-from math import comb
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -21,20 +20,19 @@ from scipy.spatial.transform import Rotation
 
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.markers import Markers
+from dmpcpp.recordings.noise import noise, white_noise
 from dmpcpp.recordings.reader import Reader
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.registry import prepared
 from dmpcpp.recordings.rigid_body import rigid_body
 from dmpcpp.recordings.stated import Stated
 
-__all__ = ["LONGEST_GAP", "BodyReport", "Inspection", "MarkerReport", "inspect", "noise"]
+__all__ = ["LONGEST_GAP", "BodyReport", "Inspection", "MarkerReport", "inspect"]
 
 LONGEST_GAP = 0.2
 """s; a longer gap can not be filled in good faith: a hand turns round within it."""
 
 _JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn can not be told from its reverse
-_DIFFERENCES = 6  # of this order remove any motion slower than an eighth of the rate or so and keep white noise
-_CHI_MEDIAN = 2.365973884375338  # median of chi-squared with three degrees of freedom
 
 
 @dataclass(frozen=True)
@@ -147,33 +145,6 @@ def inspect(
     return _of_bodies(reader, path, said, held, body)
 
 
-def noise(recording: Recording) -> tuple[float, float]:
-    """Estimate the white noise of a recording from its samples' sixth differences.
-
-    Returns the standard deviation along one axis [m] and about one axis [rad]. Motion much slower than the rate leaves
-    no trace in them, and the median ignores jumps; a recording that was filtered shows less noise than it has errors.
-    0 where fewer than seven samples stand in a row.
-    """
-    there = ~recording.missing
-    quaternion = np.full((len(recording), 4), np.nan)
-    quaternion[there] = _continuous(Rotation.from_matrix(recording.rotation[there]).as_quat())
-    return _white(recording.position), 2.0 * _white(quaternion)  # a turn by a small angle moves q by half of it
-
-
-def _white(samples: Array) -> float:
-    """Return the noise per axis of a quantity (T, n) that has noise in three directions."""
-    differences = np.diff(samples, n=_DIFFERENCES, axis=0)
-    squared = np.square(differences).sum(axis=1) / comb(2 * _DIFFERENCES, _DIFFERENCES)
-    squared = squared[~np.isnan(squared)]
-    return float(np.sqrt(np.median(squared) / _CHI_MEDIAN)) if len(squared) else 0.0
-
-
-def _continuous(quaternion: Array) -> Array:
-    """Return quaternions (T, 4), each in the hemisphere of the one before."""
-    turns = np.einsum("ij,ij->i", quaternion[1:], quaternion[:-1]) < 0.0
-    return quaternion * np.concatenate(([1.0], np.where(np.cumsum(turns) % 2 == 1, -1.0, 1.0)))[:, None]
-
-
 def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], body: str | None) -> Inspection:
     reports, needed, assumed = [], {}, {}
     for name in held if body is None else (body,):
@@ -261,7 +232,7 @@ def _marker(markers: Markers, k: int) -> MarkerReport:
         name=markers.names[k],
         missing=int((~there).sum()),
         longest_gap=_longest_gap(markers.time, there),
-        noise_position=_white(position),
+        noise_position=white_noise(position),
         extent=_extent(position[there]),
     )
 

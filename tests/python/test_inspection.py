@@ -6,8 +6,9 @@ import sys
 
 import numpy as np
 import pytest
-from dmpcpp.inspection import inspect, noise
+from dmpcpp.inspection import inspect
 from dmpcpp.recordings import Recording
+from dmpcpp.recordings.noise import noise
 from scipy.spatial.transform import Rotation
 
 COUNT = 400

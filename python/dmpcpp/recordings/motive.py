@@ -8,6 +8,7 @@ are lost samples. The file does not say which axis is up: the export dialogue le
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -110,37 +111,38 @@ def _read(path: Path) -> _File:
     first = [cell.strip() for cell in rows[0][1]] if rows else []
     facts = dict(zip(first[::2], first[1::2], strict=False))
     head, data = _headed(rows[1:])
-    missing = [name for name in ("Type", "Name", "Frame") if name not in head]
-    if missing:
-        raise InvalidArgument(f"no line headed {' or '.join(missing)}. Export again with the header.")
     if not data:
         raise InvalidArgument("a Motive header without lines of data.")
     axes = head["Frame"]
-    if not any(cell.startswith("Time") for cell in axes):
+    time = next((k for k, cell in enumerate(axes) if cell.startswith("Time")), None)
+    if time is None:
         raise InvalidArgument("no column of times behind Frame.")
-    time = next(k for k, cell in enumerate(axes) if cell.startswith("Time"))
     found = _columns(head["Type"], head["Name"], head.get("ID", []), head["quantity"], axes)
-    whole = {
-        kind: _whole(found, kinds, wanted)
-        for kind, kinds, wanted in (
-            ("bodies", _BODY_TYPES, (*_POSITION, *_ROTATION)),
-            ("markers", _MARKER_TYPES, _POSITION),
-        )
-    }
-    return _File(facts, Cells(data, blank=True), time, whole["bodies"], whole["markers"])
+    bodies = _whole(found, _BODY_TYPES, (*_POSITION, *_ROTATION))
+    return _File(facts, Cells(data, blank=True), time, bodies, _whole(found, _MARKER_TYPES, _POSITION))
 
 
 def _headed(rows: list[Row]) -> tuple[dict[str, list[str]], list[Row]]:
     """Return the lines above the data by what heads them, and the lines of data."""
-    head: dict[str, list[str]] = {"quantity": []}
-    for k, (_, raw) in enumerate(rows):
-        cells = [cell.strip() for cell in raw]
-        if cells[0] == "Frame":
-            head["Frame"] = cells
-            return head, rows[k + 1 :]
-        label = next((cell for cell in cells[:3] if cell), "quantity")
-        head["quantity" if "Position" in cells or "Rotation" in cells else label] = cells
-    return head, []
+    above = list(takewhile(lambda row: row[1][0].strip() != "Frame", rows))
+    head: dict[str, list[str]] = {"quantity": [], **{_label(cells): cells for cells in map(_stripped, above)}}
+    if len(above) < len(rows):
+        head["Frame"] = _stripped(rows[len(above)])
+    missing = [name for name in ("Type", "Name", "Frame") if name not in head]
+    if missing:
+        raise InvalidArgument(f"no line headed {' or '.join(missing)}. Export again with the header.")
+    return head, rows[len(above) + 1 :]
+
+
+def _stripped(row: Row) -> list[str]:
+    return [cell.strip() for cell in row[1]]
+
+
+def _label(cells: list[str]) -> str:
+    """Return what heads a line; the line of Rotation and Position has no head."""
+    if "Position" in cells or "Rotation" in cells:
+        return "quantity"
+    return next((cell for cell in cells[:3] if cell), "")
 
 
 def _columns(

@@ -58,20 +58,24 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
 def _read(path: Path) -> tuple[dict[str, str], tuple[int, list[str]], list[Row]]:
     """Return the facts of the header in lower case, the line of column names and the lines of data."""
     lines = [(k, line.strip("\r")) for k, line in enumerate(read_text(path).split("\n"), start=1)]
-    ends = [k for k, (_, text) in enumerate(lines) if text.strip(", \t").lower() == _END]
-    if not ends:
+    end = next((k for k, (_, text) in enumerate(lines) if _ends_header(text)), None)
+    if end is None:
         raise InvalidArgument(f"no line {_END!r}: the header of a MOT or STO file ends with it.")
-    facts = {}
-    for _, text in lines[: ends[0]]:
-        name, equals, value = text.strip(", \t").partition("=")
-        if equals:
-            facts[name.strip().lower()] = value.strip().lower()
-    filled = [(k, text) for k, text in lines[ends[0] + 1 :] if text.strip(", \t")]
+    filled = [(k, text) for k, text in lines[end + 1 :] if text.strip(", \t")]
     if len(filled) < 2:
         raise InvalidArgument(f"no column names and data behind {_END!r}.")
     delimiter = next((candidate for candidate in "\t," if candidate in filled[0][1]), " ")
     (line, header), *rows = split_all(filled, delimiter)
-    return facts, (line, [cell.strip() for cell in header]), rows
+    return _facts(lines[:end]), (line, [cell.strip() for cell in header]), rows
+
+
+def _ends_header(text: str) -> bool:
+    return text.strip(", \t").lower() == _END
+
+
+def _facts(lines: list[tuple[int, str]]) -> dict[str, str]:
+    pairs = [text.strip(", \t").partition("=") for _, text in lines]
+    return {name.strip().lower(): value.strip().lower() for name, equals, value in pairs if equals}
 
 
 def _columns(row: tuple[int, list[str]], stated: Stated) -> dict[str, int]:

@@ -8,13 +8,15 @@ of a rotation are the columns of the matrix one after another.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings.cells import Cells, split_all
+from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.markers import Markers, distinct
 from dmpcpp.recordings.orientation import from_matrices
 from dmpcpp.recordings.reader import AXES, Reader, no_orientation, pick_body
@@ -97,17 +99,11 @@ def markers(path: Path, stated: Stated) -> Markers:
 
 
 def _read(path: Path) -> _File:
-    lines = list(data_lines(read_text(path), comment="//"))
-    rows = split_all(lines, "\t")
-    header: dict[str, list[str]] = {}
-    begin = 0
-    while begin < len(rows) and _KEY.fullmatch(rows[begin][1][0].strip()):
-        _, (key, *values) = rows[begin]
-        header[key.strip()] = [value.strip() for value in values]
-        begin += 1
-    named = begin < len(rows) and rows[begin][1][0].strip() == "Frame"
-    columns = rows[begin][1] if named else []
-    data = rows[begin + named :]
+    rows = split_all(data_lines(read_text(path), comment="//"), "\t")
+    header = _header(rows)
+    rest = rows[sum(1 for _ in _header_rows(rows)) :]
+    columns = rest[0][1] if rest and rest[0][1][0].strip() == "Frame" else []
+    data = rest[1:] if columns else rest
     if not data:
         raise InvalidArgument("a Qualisys header without lines of data.")
     key, width = _content(header)
@@ -116,6 +112,14 @@ def _read(path: Path) -> _File:
         raise InvalidArgument(f"the header has no {key}, whose names are needed. Export again with the TSV header.")
     first = columns.index("Time") + 1 if "Time" in columns[:2] else _first(data[0], width * len(names), key)
     return _File(header, Cells(data, blank=True, nan=True), distinct(names), width, first)
+
+
+def _header_rows(rows: list[Row]) -> Iterator[list[str]]:
+    return takewhile(lambda cells: _KEY.fullmatch(cells[0].strip()), (cells for _, cells in rows))
+
+
+def _header(rows: list[Row]) -> dict[str, list[str]]:
+    return {cells[0].strip(): [cell.strip() for cell in cells[1:]] for cells in _header_rows(rows)}
 
 
 def _content(header: dict[str, list[str]]) -> tuple[str, int]:

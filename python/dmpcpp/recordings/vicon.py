@@ -7,6 +7,7 @@ cells are markers that were not seen.
 
 from __future__ import annotations
 
+from itertools import takewhile
 from pathlib import Path
 
 from dmpcpp.errors import InvalidArgument, NotStated
@@ -47,20 +48,24 @@ def _section(path: Path) -> tuple[float, list[str], list[str], list[str], list[R
     lines = [(k, line.strip("\r")) for k, line in enumerate(read_text(path).split("\n"), start=1)]
     delimiter = "\t" if any("\t" in text for _, text in lines[:8]) else ","
     rows = split_all(lines, delimiter)
-    heads = [cells[0].strip() for _, cells in rows]
+    begin = _begin([cells[0].strip() for _, cells in rows])
+    first = begin + 5
+    if len(rows) <= first:
+        raise InvalidArgument(f"line {len(rows)}: the file ends in the head of the section {_SECTION}.")
+    (line, (rate, *_)), (_, names), (_, columns), (_, units) = rows[begin + 1 : first]
+    data = list(takewhile(lambda row: "".join(row[1]).strip(), rows[first:]))
+    frequency = number(rate, line, "rate")
+    if not 0.0 < frequency < 1e6 or not data:
+        raise InvalidArgument(f"line {line}: {frequency:g} Hz and {len(data)} frames, expected more than 0 of both.")
+    return frequency, names, columns, units, data
+
+
+def _begin(heads: list[str]) -> int:
+    """Return the row at which the section of markers begins."""
     if _SECTION not in heads:
         held = ", ".join(head for head in heads if head in _SECTIONS) or "none that is known"
         raise InvalidArgument(f"no section {_SECTION!r}, the markers. Sections: {held}. Export the trajectories.")
-    begin = heads.index(_SECTION)
-    if len(rows) < begin + 6:
-        raise InvalidArgument(f"line {len(rows)}: the file ends in the head of the section {_SECTION}.")
-    (line, (rate, *_)), (_, names), (_, columns), (_, units) = rows[begin + 1 : begin + 5]
-    first = begin + 5
-    last = next((k for k in range(first, len(rows)) if not "".join(rows[k][1]).strip()), len(rows))
-    frequency = number(rate, line, "rate")
-    if not 0.0 < frequency < 1e6 or last == first:
-        raise InvalidArgument(f"line {line}: {frequency:g} Hz and {last - first} frames, expected more than 0 of both.")
-    return frequency, names, columns, units, rows[first:last]
+    return heads.index(_SECTION)
 
 
 def _unit(units: list[str], starts: list[int]) -> str:
