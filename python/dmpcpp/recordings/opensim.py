@@ -61,7 +61,7 @@ def _read(path: Path) -> tuple[dict[str, str], tuple[int, list[str]], list[Row]]
     end = next((k for k, (_, text) in enumerate(lines) if _ends_header(text)), None)
     if end is None:
         raise InvalidArgument(f"no line {_END!r}: the header of a MOT or STO file ends with it.")
-    filled = [(k, text) for k, text in lines[end + 1 :] if text.strip(", \t")]
+    filled = [line for line in lines[end + 1 :] if line[1].strip(", \t")]
     if len(filled) < 2:
         raise InvalidArgument(f"no column names and data behind {_END!r}.")
     delimiter = next((candidate for candidate in "\t," if candidate in filled[0][1]), " ")
