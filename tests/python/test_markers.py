@@ -123,6 +123,18 @@ def test_a_qualisys_line_with_a_bad_cell_or_too_few_is_named(tmp_path):
         recordings.markers(path)
 
 
+def test_a_qualisys_header_without_what_it_holds_is_refused(tmp_path):
+    path = qualisys(tmp_path / "a.tsv")
+    path.write_text(path.read_text().replace("DATA_INCLUDED\t3D", "DATA_INCLUDED"))
+    with pytest.raises(InvalidArgument, match=r"DATA_INCLUDED is '', expected 3D \(markers\) or 6D"):
+        recordings.markers(path)
+    nameless = qualisys(tmp_path / "b.tsv", columns=False, leading=0)
+    nameless.write_text(nameless.read_text().replace("FREQUENCY\t100", "FREQUENCY"))
+    with pytest.raises(NotStated, match="rate: the file holds no times"):
+        recordings.markers(nameless)
+    assert_read(recordings.markers(nameless, rate=100.0))
+
+
 def six_dof(path, order="F", lost=()):
     turns = Rotation.from_euler("XYZ", np.linspace([0, 0, 0], [80, -30, 50], COUNT), degrees=True)
     lines = ["NO_OF_FRAMES\t12", "NO_OF_BODIES\t2", "FREQUENCY\t100", "DATA_INCLUDED\t6D", "BODY_NAMES\thand\tcup"]

@@ -119,7 +119,8 @@ def _header_rows(rows: list[Row]) -> Iterator[list[str]]:
 
 
 def _header(rows: list[Row]) -> dict[str, list[str]]:
-    return {cells[0].strip(): [cell.strip() for cell in cells[1:]] for cells in _header_rows(rows)}
+    """Return the values behind each key; at least one, which may be empty."""
+    return {cells[0].strip(): [cell.strip() for cell in cells[1:]] or [""] for cells in _header_rows(rows)}
 
 
 def _content(header: dict[str, list[str]]) -> tuple[str, int]:
