@@ -2,7 +2,7 @@
 
 from dmpcpp._core import FileError, IkResult, InvalidArgument, PathReport
 
-__all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency"]
+__all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency", "NotStated"]
 
 
 class IkError(RuntimeError):
@@ -22,3 +22,12 @@ class IkError(RuntimeError):
 
 class MissingDependency(ImportError):
     """An optional package is not installed; the message names the extra that brings it."""
+
+
+class NotStated(InvalidArgument):
+    """A file does not say something and the caller has to; `names` lists the parameters that do."""
+
+    def __init__(self, names: str | tuple[str, ...], message: str) -> None:
+        """Take the parameter or parameters, one of which is to be stated, and the message."""
+        super().__init__(message)
+        self.names = (names,) if isinstance(names, str) else names

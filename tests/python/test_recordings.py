@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from dmpcpp import recordings
-from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
+from dmpcpp.errors import FileError, InvalidArgument, MissingDependency, NotStated
 from dmpcpp.recordings import Recording
 from scipy.spatial.transform import Rotation
 
@@ -125,7 +125,7 @@ def test_a_folder_is_a_file_error(tmp_path):
 def test_an_unknown_format_and_one_that_can_not_be_told_list_the_formats(tmp_path):
     path = tmp_path / "words.txt"
     path.write_text("these are words\n")
-    with pytest.raises(InvalidArgument, match=r"can not be told.*'deepmimic'.*'tum'.*'table'.*'arrays'"):
+    with pytest.raises(InvalidArgument, match=r"can not be told.*'arrays'.*'deepmimic'.*'table'.*'tum'"):
         recordings.load(path)
     with pytest.raises(InvalidArgument, match=r"format: 'xml', expected one of.*'tum'"):
         recordings.load(path, format="xml")
@@ -578,3 +578,166 @@ def test_a_header_that_claims_more_than_the_file_holds_takes_no_memory(tmp_path)
     (tmp_path / "a.npy").write_bytes(content.replace(b"(12, 4, 4), }         ", b"(12000000000, 4, 4), }"))
     with pytest.raises(InvalidArgument, match="an array of 1536000000000 bytes"):
         recordings.load(tmp_path / "a.npy", rate=10.0)
+
+
+# ---------------------------------------------------------------- what the caller states
+
+
+def test_a_lost_sample_is_nan_in_all_of_position_and_rotation():
+    position, rotation = corrupted(POSITIONS, 4, np.nan), corrupted(TURNS.as_matrix(), 4, np.nan)
+    recording = made(position=position, rotation=rotation)
+    assert np.flatnonzero(recording.missing).tolist() == [4]
+    assert recording.rate == pytest.approx(10.0)
+    with pytest.raises(InvalidArgument, match=r"position\[4, 0\]: nan.*A missing sample is NaN in all of position"):
+        made(position=position)
+    with pytest.raises(InvalidArgument, match="11 of 12 samples are missing"):
+        made(
+            position=np.where(np.arange(12)[:, None] > 0, np.nan, POSITIONS),
+            rotation=np.where(np.arange(12)[:, None, None] > 0, np.nan, TURNS.as_matrix()),
+        )
+
+
+@pytest.mark.parametrize(("missing", "cell"), [("empty", ""), ("nan", "NaN"), (0, "0.0"), (-9999.0, "-9999")])
+def test_lost_samples_of_a_table_are_gaps_once_their_mark_is_stated(tmp_path, missing, cell):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER)
+    lines = path.read_text().splitlines()
+    lines[4] = ",".join([lines[4].split(",")[0], *[cell] * 7])
+    path.write_text("\n".join(lines))
+    with pytest.raises(InvalidArgument):
+        recordings.load(path)
+    recording = recordings.load(path, missing=missing)
+    assert np.flatnonzero(recording.missing).tolist() == [3]
+    assert "1 of 12 samples are missing (the first: 3)" in recording.history
+    np.testing.assert_allclose(recording.rotation[4:], TURNS.as_matrix()[4:], atol=1e-12)
+
+
+def test_lost_samples_of_an_array_are_gaps_once_stated(tmp_path):
+    lost = poses()
+    lost[5] = np.nan
+    np.savez(tmp_path / "a.npz", time=TIMES, pose=lost)
+    with pytest.raises(InvalidArgument, match=r"poses\[5\]"):
+        recordings.load(tmp_path / "a.npz")
+    assert np.flatnonzero(recordings.load(tmp_path / "a.npz", missing="nan").missing).tolist() == [5]
+
+
+@pytest.mark.parametrize("missing", ["none", True, float("inf")])
+def test_an_unknown_mark_of_lost_samples_is_refused(tmp_path, missing):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER)
+    with pytest.raises(InvalidArgument, match=r"missing: .*, expected 'empty', 'nan' or a number"):
+        recordings.load(path, missing=missing)
+
+
+EULER = {"time": "time", "x": "x", "y": "y", "z": "z", "rx": "a", "ry": "b", "rz": "c"}
+
+
+@pytest.mark.parametrize("order", ["ZYX", "XYZ", "zxy"])
+@pytest.mark.parametrize("unit", ["deg", "rad"])
+def test_angles_about_the_axes_turn_in_the_stated_order(tmp_path, order, unit):
+    angles = TURNS.as_euler(order, degrees=unit == "deg")
+    by_axis = angles[:, [order.lower().index(axis) for axis in "xyz"]]
+    path = write_csv(tmp_path / "a.csv", np.column_stack([TIMES, POSITIONS, by_axis]), list("txyzabc"))
+    columns = {**EULER, "time": "t"}
+    assert_same_motion(recordings.load(path, columns=columns, euler_order=order, angle_unit=unit))
+    with pytest.raises(NotStated, match="euler_order: three angles do not tell their order"):
+        recordings.load(path, columns=columns, angle_unit=unit)
+    with pytest.raises(NotStated, match="angle_unit: not stated"):
+        recordings.load(path, columns=columns, euler_order=order)
+    with pytest.raises(InvalidArgument, match="euler_order: 'XYX'"):
+        recordings.load(path, columns=columns, euler_order="XYX", angle_unit=unit)
+
+
+def test_lines_above_the_header_are_skipped_when_stated(tmp_path):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER)
+    path.write_text("Made by\nhand, on a day\n" + path.read_text())
+    assert_same_motion(recordings.load(path, skip_lines=2))
+    for lines in (-1, 1.5, True):
+        with pytest.raises(InvalidArgument, match="skip_lines: .*expected a number of lines"):
+            recordings.load(path, skip_lines=lines)
+
+
+@pytest.mark.parametrize(("up", "mirrored"), [("z", 1), ("y", 2), ("x", 2)])
+def test_a_left_handed_world_is_mirrored_sideways(tmp_path, up, mirrored):
+    path = write_csv(tmp_path / "a.csv", rows(), HEADER)
+    found = recordings.load(path, handedness="left", up_axis=up)
+    mirror = np.eye(3)
+    mirror[mirrored, mirrored] = -1.0
+    np.testing.assert_allclose(found.position, POSITIONS @ mirror, atol=1e-12)
+    np.testing.assert_allclose(found.rotation, mirror @ TURNS.as_matrix() @ mirror, atol=1e-12)
+    assert f"left-handed world mirrored along {'xyz'[mirrored]}" in found.history
+    with pytest.raises(NotStated, match="State up_axis as well"):
+        recordings.load(path, handedness="left")
+    with pytest.raises(InvalidArgument, match="handedness: 'both', expected 'right' or 'left'"):
+        recordings.load(path, handedness="both")
+
+
+def test_a_motion_too_small_for_its_unit_is_refused_unless_the_unit_is_a_number(tmp_path):
+    path = write_csv(tmp_path / "a.csv", rows(scale=0.01), HEADER)  # 1 cm in m
+    with pytest.raises(InvalidArgument, match=r"z ranges over 1.1e-05 m only.*taken as mm.*unit=0.001"):
+        recordings.load(path, unit="mm")
+    assert_same_motion(recordings.load(path, unit=0.001), 1e-5 * POSITIONS)
+    still = write_csv(tmp_path / "b.csv", rows(scale=0.0), HEADER)
+    assert_same_motion(recordings.load(still), 0.0 * POSITIONS)
+
+
+def test_what_must_be_stated_is_named_by_the_error(tmp_path):
+    path = write_csv(tmp_path / "a.csv", rows()[:, 1:], HEADER[1:])
+    with pytest.raises(NotStated) as refused:
+        recordings.load(path)
+    assert refused.value.names == ("rate",)
+
+
+# ---------------------------------------------------------------- EuRoC and OpenSim
+
+
+def test_a_euroc_file_reads_to_the_nanosecond(tmp_path):
+    head = "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []"
+    stamps = [1_403_636_580_838_555_648 + 5_000_001 * k for k in range(12)]
+    lines = [",".join([str(t), *map(repr, map(float, row[1:]))]) for t, row in zip(stamps, rows("wxyz"), strict=True)]
+    path = tmp_path / "data.csv"
+    path.write_text("\n".join([head, *lines]))
+    assert recordings.format_of(path) == "euroc"
+    assert_same_motion(recordings.load(path), time=5.000001e-3 * np.arange(12))
+    path.write_text("\n".join([head, *lines[:5], "later" + lines[5]]))
+    with pytest.raises(InvalidArgument, match="line 7, timestamp: 'later140.*expected a whole number"):
+        recordings.load(path)
+    path.write_text(head.replace("q_RS_w", "r") + "\n" + lines[0])
+    with pytest.raises(InvalidArgument, match="line 1: no column for qw"):
+        recordings.load(path)
+
+
+def test_coordinates_of_a_model_are_refused_until_six_of_them_are_a_pose(recorded):
+    path = recorded / "pyomeca" / "inverse_kin.mot"
+    with pytest.raises(NotStated, match=r"inverse_kin\.mot: columns: coordinates of a model's joints.*box_transX"):
+        recordings.load(path)
+    columns = {a: f"box_trans{a.upper()}" for a in "xyz"} | {f"r{a}": f"box_rot{a.upper()}" for a in "xyz"}
+    box = recordings.load(path, columns=columns, euler_order="XYZ", up_axis="y")
+    angles = np.radians([-89.84738783, -181.00286714, 18.49171606])
+    np.testing.assert_allclose(box.rotation[0], Rotation.from_euler("XYZ", angles).as_matrix(), atol=1e-9)
+    np.testing.assert_allclose(box.position[0], [0.19682993, 0.0095494, 0.22749238])
+    assert len(box) == 88 and "warning: the header announces 250 rows, the file holds 88" in box.history
+    with pytest.raises(InvalidArgument, match="no column 'boxx'"):
+        recordings.load(path, columns={**columns, "x": "boxx"}, euler_order="XYZ")
+
+
+def test_every_recorded_file_reads_or_says_what_to_state(recorded):
+    stated = {
+        ".bvh": {"body": "Hips", "unit": "cm"},
+        ".npy": {"index": 0, "rate": 100.0, "quat_order": "wxyz", "unit": "cm"},
+    }
+    columns = {"time": 0, "x": 1, "y": 2, "z": 3, "qw": 10, "qx": 11, "qy": 12, "qz": 13}
+    read = set()
+    for path in sorted(recorded.glob("*/*.*")):
+        if path.suffix == ".md" or path.name.startswith(("PROVENANCE", "LICENSE")):
+            continue
+        if path.parent.name == "gsutanto_unscrewing":
+            assert len(recordings.load(path, columns=columns)) > 1000
+        elif path.suffix == ".mot":
+            continue  # see above
+        elif recordings.bodies(path):
+            assert (
+                len(recordings.load(path, **{"body": recordings.bodies(path)[0], **stated.get(path.suffix, {})})) >= 8
+            )
+        else:
+            assert len(recordings.markers(path)) >= 8
+        read.add(path.suffix)
+    assert read == {".bvh", ".npy", ".c3d", ".csv", ".trc", ".tsv", ".txt"}

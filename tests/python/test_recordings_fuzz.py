@@ -1,7 +1,11 @@
 """Damaged files: whatever happens to a file, only the two errors of the library come out of reading it."""
 
 import json
+import resource
+import signal
+import struct
 import warnings
+from contextlib import contextmanager, suppress
 
 import numpy as np
 import pytest
@@ -10,13 +14,29 @@ from dmpcpp.errors import FileError, InvalidArgument
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+FRAMES = 12
+DAMAGED, DAMAGED_SLOWLY = 300, 3000  # files of every kind, without and with --slow
+MOST_MEMORY = 1 << 30  # bytes that reading a small file may take
+MOST_SECONDS = 5  # that reading a small file may take: a hang, not a measurement
+
+POSE = {"x": "tx", "y": "ty", "z": "tz", "rx": "r1", "ry": "r2", "rz": "r3"}
 STATED = {
     "deepmimic": {"body": "right_hand"},
     "tum": {},
     "table": {},
     "arrays": {"rate": 30.0, "quat_order": "xyzw"},
+    "bvh": {"body": "Hand", "unit": "cm"},
+    "c3d": {"markers": ["a", "b", "c"]},
+    "ros": {},
+    "qualisys": {"markers": ["a", "b", "c"]},
+    "qualisys 6D": {"body": "hand"},
+    "motive": {"body": "hand"},
+    "vicon": {"markers": ["a", "b", "c"]},
+    "trc": {"markers": ["a", "b", "c"]},
+    "opensim": {"columns": POSE, "euler_order": "XYZ"},
+    "euroc": {},
+    "aria": {},
 }
-FRAMES = 12
 
 
 def clip() -> bytes:
@@ -50,48 +70,228 @@ def npy(tmp_path) -> bytes:
     return (tmp_path / "seed.npy").read_bytes()
 
 
+def lines(head, table, separator) -> bytes:
+    return "\n".join([*head, *(separator.join(map(str, row)) for row in table)]).encode() + b"\n"
+
+
+def corners() -> np.ndarray:
+    """Return three markers (T, 9) in mm on a plate that moves."""
+    shift = np.repeat(100.0 * rows()[:, 1:4], 3, axis=0).reshape(FRAMES, 9)
+    return (shift + np.array([0, 0, 0, 80, 0, 0, 20, 50, 0])).round(3)
+
+
+def counted() -> np.ndarray:
+    return np.column_stack([np.arange(1, FRAMES + 1), rows()[:, 0]])
+
+
+def bvh() -> bytes:
+    head = """HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT Hand
+  {
+    OFFSET 5 0 0
+    CHANNELS 3 Xrotation Yrotation Zrotation
+    End Site
+    {
+      OFFSET 0 0 1
+    }
+  }
+}
+MOTION
+Frames: 12
+Frame Time: 0.033""".splitlines()
+    return lines(head, corners(), " ")
+
+
+def c3d() -> bytes:
+    def parameter(name, kind, shape, data):
+        body = struct.pack("bB", kind, len(shape)) + bytes(shape) + data + b"\0"
+        return struct.pack("bb", len(name), 1) + name + struct.pack("<h", len(body) + 2) + body
+
+    section = b"\1\x50\1\x54" + struct.pack("<bb5shb", 5, -1, b"POINT", 3, 0)
+    section += parameter(b"UNITS", -1, (2,), b"mm") + parameter(b"LABELS", -1, (1, 3), b"abc")
+    section += parameter(b"RATE", 4, (), struct.pack("<f", 30.0))
+    header = b"\2\x50" + struct.pack("<5HfHHf", 3, 0, 1, FRAMES, 10, -1.0, 3, 0, 30.0)
+    points = np.concatenate([corners().reshape(FRAMES, 3, 3), np.zeros((FRAMES, 3, 1))], axis=2)
+    return header.ljust(512, b"\0") + section.ljust(512, b"\0") + points.astype("<f4").tobytes()
+
+
+def qualisys() -> bytes:
+    head = ["NO_OF_FRAMES\t12", "FREQUENCY\t30", "DATA_INCLUDED\t3D", "MARKER_NAMES\ta\tb\tc"]
+    return lines(head, np.column_stack([counted(), corners()]), "\t")
+
+
+def qualisys_6d() -> bytes:
+    head = ["NO_OF_FRAMES\t12", "FREQUENCY\t30", "DATA_INCLUDED\t6D", "BODY_NAMES\thand"]
+    pose = np.column_stack([corners()[:, :3], np.zeros((FRAMES, 4)), np.tile(np.eye(3).flatten(), (FRAMES, 1))])
+    return lines(head, np.column_stack([counted(), pose]), "\t")
+
+
+def motive() -> bytes:
+    head = [
+        "Format Version,1.23,Rotation Type,Quaternion,Length Units,Millimeters,Coordinate Space,Global",
+        "",
+        ",Type" + 7 * ",Rigid Body",
+        ",Name" + 7 * ",hand",
+        ",ID" + 7 * ",1",
+        "," + 4 * ",Rotation" + 3 * ",Position",
+        "Frame,Time (Seconds),X,Y,Z,W,X,Y,Z",
+    ]
+    return lines(head, np.column_stack([counted(), rows()[:, 4:], corners()[:, :3]]), ",")
+
+
+def vicon() -> bytes:
+    head = ["Trajectories", "30", ",,a,,,b,,,c", "Frame,Sub Frame" + 3 * ",X,Y,Z", "," + 9 * ",mm"]
+    return lines(head, np.column_stack([counted(), corners()]).astype(object), ",")
+
+
+def trc() -> bytes:
+    head = [
+        "PathFileType\t4\t(X/Y/Z)\ta.trc",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
+        "30\t30\t12\t3\tmm",
+        "Frame#\tTime\ta\t\t\tb\t\t\tc",
+        "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3",
+    ]
+    return lines(head, np.column_stack([counted(), corners()]), "\t")
+
+
+def opensim() -> bytes:
+    head = ["Coordinates", "nRows=12", "inDegrees=yes", "endheader", "time\ttx\tty\ttz\tr1\tr2\tr3"]
+    return lines(head, rows()[:, :7], "\t")
+
+
+def euroc() -> bytes:
+    head = ["#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []"]
+    stamps = [1_700_000_000_000_000_000 + 33_000_000 * k for k in range(FRAMES)]
+    return lines(head, [[stamp, *row[1:]] for stamp, row in zip(stamps, rows(), strict=True)], ",")
+
+
+def aria() -> bytes:
+    head = ["tracking_timestamp_us," + ",".join(f"{what}_world_device" for what in POSES)]
+    return lines(head, np.column_stack([(33e3 * np.arange(FRAMES)).astype(int), rows()[:, 1:]]), ",")
+
+
+POSES = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
+
+
+def bag(folder, kind) -> bytes:
+    """Return the file of a bag of stamped poses."""
+    pytest.importorskip("rosbags")
+    from rosbags import rosbag1, rosbag2
+    from rosbags.typesys import Stores, get_typestore
+
+    first = kind == "ros1"
+    store = get_typestore(Stores.ROS1_NOETIC if first else Stores.ROS2_HUMBLE)
+    path = folder / f"seed.{kind}"
+    plugin = None if first else rosbag2.StoragePlugin[kind.upper()]
+    writer = rosbag1.Writer(path) if first else rosbag2.Writer(path, version=9, storage_plugin=plugin)
+    kinds = {"Header": "std_msgs", "Time": "builtin_interfaces"}
+    names = ("Header", "Time", "Point", "Quaternion", "Pose", "PoseStamped")
+    types = {name: store.types[f"{kinds.get(name, 'geometry_msgs')}/msg/{name}"] for name in names}
+    with writer:
+        connection = writer.add_connection("/hand", "geometry_msgs/msg/PoseStamped", typestore=store)
+        for k, row in enumerate(rows()):
+            stamp = types["Time"](sec=k, nanosec=0)
+            header = types["Header"](**({"seq": 0} if first else {}), stamp=stamp, frame_id="world")
+            pose = types["Pose"](position=types["Point"](*row[1:4]), orientation=types["Quaternion"](*row[4:]))
+            message = types["PoseStamped"](header=header, pose=pose)
+            serialize = store.serialize_ros1 if first else store.serialize_cdr
+            writer.write(connection, k, serialize(message, message.__msgtype__))
+    return (path if first else next(file for file in path.iterdir() if file.suffix != ".yaml")).read_bytes()
+
+
+class Hang(BaseException):
+    """No Exception, so that a reader that meets any damage with one of its two errors does not catch it."""
+
+
+@contextmanager
+def bounded():
+    """Stop what takes more memory or time than reading a small file should."""
+
+    def stop(number, frame):
+        raise Hang(f"still reading after {MOST_SECONDS} s")
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (16 * MOST_MEMORY, hard))  # claimed, not taken; spares the machine
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(MOST_SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+    assert 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - peak) < MOST_MEMORY
+
+
 def attempt(path, content, format, **stated):
     """Read `content`; a Recording or one of the two errors is all that may come out."""
     path.write_bytes(content)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), bounded():
         warnings.simplefilter("error")
         try:
             recording = recordings.load(path, format=format, **stated)
         except (InvalidArgument, FileError) as error:
             assert str(error)
             return None
-    assert np.isfinite(recording.position).all()
+    assert np.isfinite(recording.position[~recording.missing]).all()
     return recording
+
+
+MADE = {
+    "deepmimic": ("a.txt", clip),
+    "tum": ("a.tum", tum),
+    "table": ("a.csv", table),
+    "arrays": ("a.npz", arrays),
+    "arrays npy": ("a.npy", npy),
+    "bvh": ("a.bvh", bvh),
+    "c3d": ("a.c3d", c3d),
+    "ros 1": ("a.bag", lambda folder: bag(folder, "ros1")),
+    "ros 2 sqlite3": ("a.db3", lambda folder: bag(folder, "sqlite3")),
+    "ros 2 mcap": ("a.mcap", lambda folder: bag(folder, "mcap")),
+    "qualisys": ("a.tsv", qualisys),
+    "qualisys 6D": ("a_6D.tsv", qualisys_6d),
+    "motive": ("motive.csv", motive),
+    "vicon": ("vicon.csv", vicon),
+    "trc": ("a.trc", trc),
+    "opensim": ("a.mot", opensim),
+    "euroc": ("euroc.csv", euroc),
+    "aria": ("aria.csv", aria),
+}
+KINDS = list(MADE)
 
 
 @pytest.fixture(scope="module")
 def seeds(tmp_path_factory):
+    """An undamaged file of each kind: its path, its content, its format and what is stated about it."""
     folder = tmp_path_factory.mktemp("seeds")
-    return {
-        "deepmimic": (folder / "a.txt", clip()),
-        "tum": (folder / "a.tum", tum()),
-        "table": (folder / "a.csv", table()),
-        "arrays": (folder / "a.npz", arrays(folder)),
-        "arrays (npy)": (folder / "a.npy", npy(folder)),
-    }
 
+    def seed(kind):
+        name, make = MADE[kind]
+        content = make(folder) if make.__code__.co_argcount else make()
+        return folder / name, content, kind.split()[0], STATED.get(kind, STATED.get(kind.split()[0]))
 
-KINDS = ["deepmimic", "tum", "table", "arrays", "arrays (npy)"]
+    made = {}
+    return lambda kind: made.get(kind) or made.setdefault(kind, seed(kind))
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_undamaged_file_reads(seeds, kind):
-    path, content = seeds[kind]
-    format = kind.split()[0]
-    assert len(attempt(path, content, format, **STATED[format])) == FRAMES
+def test_the_undamaged_file_reads_and_is_recognised(seeds, kind):
+    path, content, format, stated = seeds(kind)
+    assert len(attempt(path, content, format, **stated)) == FRAMES
+    assert recordings.format_of(path) == format
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_file_cut_off_anywhere_is_read_or_refused(seeds, kind):
-    path, content = seeds[kind]
-    format = kind.split()[0]
+    path, content, format, stated = seeds(kind)
     for end in np.unique(np.linspace(0, len(content) - 1, 300).astype(int)):
-        attempt(path, content[:end], format, **STATED[format])
+        attempt(path, content[:end], format, **stated)
 
 
 SPITE = [
@@ -111,25 +311,42 @@ SPITE = [
 ]
 
 
+def damaged(content, random, spiteful) -> bytes:
+    changed = bytearray(content)
+    for _ in range(random.integers(1, 4)):
+        at = int(random.integers(len(changed)))
+        if spiteful:
+            changed[at : at + int(random.integers(6))] = SPITE[random.integers(len(SPITE))]
+        else:
+            changed[at] = int(random.integers(256))
+    return bytes(changed)
+
+
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_file_with_damaged_bytes_is_read_or_refused(seeds, kind):
-    path, content = seeds[kind]
-    format = kind.split()[0]
-    random = np.random.default_rng(7)
-    for trial in range(500):
-        damaged = bytearray(content)
-        for _ in range(random.integers(1, 4)):
-            at = int(random.integers(len(damaged)))
-            if trial % 2:
-                damaged[at] = int(random.integers(256))
-            else:
-                damaged[at : at + int(random.integers(6))] = SPITE[random.integers(len(SPITE))]
-        attempt(path, bytes(damaged), format, **STATED[format])
+@pytest.mark.parametrize("trials", [DAMAGED, pytest.param(DAMAGED_SLOWLY, marks=pytest.mark.slow)])
+def test_a_file_with_damaged_bytes_is_read_or_refused(seeds, kind, trials):
+    path, content, format, stated = seeds(kind)
+    random = np.random.default_rng(trials)
+    for trial in range(trials):
+        attempt(path, damaged(content, random, trial % 2), format, **stated)
 
 
-@pytest.mark.parametrize("format", STATED)
+@pytest.mark.parametrize("kind", ["ros 2 sqlite3", "ros 2 mcap"])
+def test_a_bag_folder_with_damaged_metadata_is_read_or_refused(tmp_path, kind):
+    bag(tmp_path, kind.split()[-1])
+    folder = tmp_path / f"seed.{kind.split()[-1]}"
+    metadata = folder / "metadata.yaml"
+    content, random = metadata.read_bytes(), np.random.default_rng(5)
+    for trial in range(100):
+        metadata.write_bytes(damaged(content, random, trial % 2))
+        with bounded(), suppress(InvalidArgument, FileError):
+            recordings.load(folder)
+
+
+@pytest.mark.parametrize("kind", KINDS)
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(content=st.one_of(st.binary(max_size=300), st.text(max_size=200).map(str.encode)))
-def test_arbitrary_bytes_are_read_or_refused(tmp_path, format, content):
-    attempt(tmp_path / "a.bin", content, format, **STATED[format])
+def test_arbitrary_bytes_are_read_or_refused(tmp_path, kind, content):
+    format = kind.split()[0]
+    attempt(tmp_path / MADE[kind][0], content, format, **STATED.get(kind, STATED.get(format)))
     attempt(tmp_path / "a.csv", content, None)

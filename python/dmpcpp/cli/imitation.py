@@ -13,8 +13,8 @@ import click
 
 from dmpcpp.cli.group import FAILED, refuse_file
 from dmpcpp.cli.options import arm_options
+from dmpcpp.cli.recording_options import recording_options, taken_recording
 from dmpcpp.cli.tables import checks_table
-from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
@@ -75,24 +75,7 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several.")
-@click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table or arrays; by default from the file.")
-@click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it.")
-@click.option("--time-unit", metavar="s|ms|us|ns", help="Unit of times, where the format does not say it.")
-@click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times.")
-@click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array.")
-@click.option(
-    "--up-axis",
-    metavar="x|y|z",
-    help="The recording's axis that points up, where the format does not say it.",
-)
-@click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0.")
-@click.option("--delimiter", metavar="C", help="Between the cells of a table.")
-@click.option(
-    "--columns",
-    metavar="time=..,x=..",
-    help="Columns of a table: time, x, y, z, qx, qy, qz, qw by name or number.",
-)
+@recording_options
 @click.option("--start", type=float, default=0.0, metavar="S", help="Use the motion from here [s].")
 @click.option("--end", type=float, metavar="S", help="Use the motion up to here [s].")
 @click.option("--low-pass", type=float, metavar="HZ", help="Remove what is faster (zero-phase Butterworth).")
@@ -101,8 +84,6 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @_run_options("dmpcpp-imitation")
 def imitate(
     file: Path,
-    body: str | None,
-    format_: str | None,
     start: float,
     end: float | None,
     low_pass: float | None,
@@ -112,32 +93,19 @@ def imitate(
     tip: str | None,
     **options: Any,
 ) -> None:
-    """Carry out the motion in FILE: a DeepMimic clip, a TUM file, a CSV/TSV table, or a .npy/.npz of poses.
+    """Carry out the motion in FILE, a recording in any of the formats that `dmpcpp inspect` lists.
 
     Example: dmpcpp imitate session.csv --body hand --unit mm --arm panda --out session
     """
     from dmpcpp import arms, motion, recordings
 
     run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "as_json")}
-    stated = {name: value for name, value in options.items() if value is not None}
-    if "columns" in stated:
-        stated["columns"] = _columns(stated["columns"])
-    recording = recordings.load(file, body, format_, **stated)
+    recording = recordings.load(file, **taken_recording(options))
     if start or end is not None:
         recording = motion.crop(recording, start, end)
     if low_pass is not None:
         recording = motion.low_pass(recording, low_pass)
     _carry_out(recording, arms.load(arm, base, tip), place=not no_place, **run)
-
-
-def _columns(text: str) -> dict[str, str | int]:
-    columns: dict[str, str | int] = {}
-    for part in text.split(","):
-        name, equals, column = part.partition("=")
-        if not equals or not column:
-            raise InvalidArgument(f"--columns: '{part}', expected NAME=COLUMN such as x=3 or x=hand_x.")
-        columns[name.strip()] = int(column) if column.strip().isdigit() else column.strip()
-    return columns
 
 
 def _carry_out(

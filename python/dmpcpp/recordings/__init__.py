@@ -5,6 +5,8 @@
 ('hand', 'object')
 >>> recordings.load("session.csv", body="hand", unit="mm")        # doctest: +SKIP
 Recording('hand', 812 samples, 8.110 s, 100.0 Hz, source='session.csv')
+>>> recordings.load("lift.c3d", body="hand", markers=["WRIST", "STYLr", "STYLu"])   # doctest: +SKIP
+Recording('hand', 580 samples, 5.790 s, 100.0 Hz, source='lift.c3d')
 
 Length unit, quaternion order, sampling rate and up axis are stated by the format or by the caller and never
 guessed; what was taken as a default stands in the recording's history.
@@ -12,65 +14,98 @@ guessed; what was taken as a default stands in the recording's history.
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings import arrays, deepmimic, table, tum
 from dmpcpp.recordings.clips import clip_names, clip_path
+from dmpcpp.recordings.markers import Markers
 from dmpcpp.recordings.reader import Reader
 from dmpcpp.recordings.recording import Recording
-from dmpcpp.recordings.text import read_bytes
+from dmpcpp.recordings.registry import prepared, reader_of, summaries
+from dmpcpp.recordings.rigid_body import rigid_body
+from dmpcpp.recordings.stated import Stated
 
-__all__ = ["Recording", "bodies", "clip", "clip_names", "clip_path", "formats", "load"]
-
-_READERS: dict[str, Reader] = {r.name: r for r in (deepmimic.READER, tum.READER, table.READER, arrays.READER)}
-_HEAD = 4096  # bytes that decide the format
+__all__ = [
+    "Markers",
+    "Recording",
+    "Stated",
+    "bodies",
+    "clip",
+    "clip_names",
+    "clip_path",
+    "format_of",
+    "formats",
+    "load",
+    "markers",
+    "rigid_body",
+]
 
 
 def formats() -> dict[str, str]:
     """Return the names of the formats, as `format=` takes them, with a few words on each."""
-    return {name: reader.summary for name, reader in _READERS.items()}
+    return summaries()
+
+
+def format_of(path: str | PathLike[str]) -> str:
+    """Return the name of a file's format, told from its name and first bytes.
+
+    Raises
+    ------
+    FileError, InvalidArgument
+        See `load`.
+    """
+    return reader_of(path).name
 
 
 def bodies(path: str | PathLike[str], format: str | None = None, **stated: object) -> tuple[str, ...]:
-    """Return the bodies that a file holds.
+    """Return the bodies that a file holds; none where it holds markers only.
 
     Parameters and errors are those of `load`.
     """
-    path = Path(path)
-    reader = _reader(path, format, stated)
-    return _call(reader, reader.bodies, path, stated)
+    reader, said = prepared(path, format, stated)
+    return reader.call(reader.bodies, Path(path), said)
 
 
-def load(path: str | PathLike[str], body: str | None = None, format: str | None = None, **stated: object) -> Recording:
+def markers(path: str | PathLike[str], format: str | None = None, **stated: object) -> Markers:
+    """Read all markers of a file: positions without orientations.
+
+    Parameters and errors are those of `load`; a format without markers is an error, too.
+    """
+    reader, said = prepared(path, format, stated)
+    if reader.markers is None:
+        raise InvalidArgument(f"{Path(path).name}: markers: the format {reader.name!r} holds none.")
+    return reader.call(reader.markers, Path(path), said)
+
+
+def load(
+    path: str | PathLike[str],
+    body: str | None = None,
+    format: str | None = None,
+    *,
+    markers: Sequence[str] | None = None,
+    **stated: object,
+) -> Recording:
     """Read one body's motion from a file.
 
     Parameters
     ----------
     path : path
-        The file.
+        The file; of a ROS 2 bag the folder.
     body : str, optional
-        Which body; may be left out when the file holds one.
+        Which body; may be left out when the file holds one. With `markers`, what the body is to be called.
     format : str, optional
         One of `formats()`; left out, the file's name and first bytes decide; where they do not, an error.
+    markers : sequence of str, optional
+        Three or more markers that sit on one rigid body, for formats that hold markers; see `rigid_body`.
     **stated
-        What the file does not say. By format:
-
-        - deepmimic: nothing, the format says it all.
-        - tum: `unit`, `up_axis`.
-        - table: `columns`, `delimiter`, `rate`, `unit`, `time_unit`, `up_axis`.
-        - arrays: `rate`, `quat_order`, `index`, `unit`, `time_unit`, `up_axis`.
-
-        `unit` is "m", "cm", "mm" or metres per unit, `rate` is in Hz, `quat_order` is "xyzw" or "wxyz",
-        `up_axis` is "x", "y" or "z".
+        What the file does not say: the fields of `Stated`. Each format takes those that it leaves open.
 
     Returns
     -------
     Recording
-        In s from 0 and m, checked; its history says what was mended.
+        In s from 0 and m, checked; its history says what was mended. Samples that the file marks as lost are NaN.
 
     Raises
     ------
@@ -78,12 +113,16 @@ def load(path: str | PathLike[str], body: str | None = None, format: str | None 
         The file is missing or can not be read.
     InvalidArgument
         The format can not be told, the body is not in the file (the message lists those that are), the
-        content is damaged (the message names line, frame or index), or what must be stated was not.
+        content is damaged (the message names line, frame or index), or what must be stated was not (`NotStated`).
+    MissingDependency
+        The format needs a package that is not installed; the message says which extra brings it.
     """
-    path = Path(path)
-    reader = _reader(path, format, stated)
-    recording: Recording = _call(reader, reader.read, path, stated, body)
-    return recording
+    reader, said = prepared(path, format, stated)
+    if markers is None:
+        return reader.call(reader.read, Path(path), body, said)
+    if reader.markers is None:
+        raise InvalidArgument(f"{Path(path).name}: markers: the format {reader.name!r} holds none.")
+    return reader.call(_rigid_body, Path(path), reader, markers, body, said)
 
 
 def clip(name: str, body: str = "right_hand") -> Recording:
@@ -99,36 +138,6 @@ def clip(name: str, body: str = "right_hand") -> Recording:
     return load(clip_path(name), body=body, format="deepmimic")
 
 
-def _call(reader: Reader, function: Callable, path: Path, stated: dict[str, object], *args: object):
-    """Call a reader so that its complaints begin with the file's name."""
-    try:
-        return function(path, *args, **stated)
-    except InvalidArgument as error:
-        raise InvalidArgument(f"{path.name}: {error}") from None
-
-
-def _reader(path: Path, format: str | None, stated: dict[str, object]) -> Reader:
-    if format is None:
-        head = read_bytes(path, _HEAD)
-        able = [reader for reader in _READERS.values() if reader.recognises(path, head)]
-        if len(able) != 1:
-            raise InvalidArgument(f"{path.name}: the format can not be told. State format=...: {_listed()}.")
-        reader = able[0]
-    elif format in _READERS:
-        reader = _READERS[format]
-    else:
-        raise InvalidArgument(f"format: {format!r}, expected one of: {_listed()}.")
-    _check_stated(reader, stated)
-    return reader
-
-
-def _check_stated(reader: Reader, stated: dict[str, object]) -> None:
-    taken = [p.name for p in inspect.signature(reader.read).parameters.values() if p.kind is p.KEYWORD_ONLY]
-    for name in stated:
-        if name not in taken:
-            takes = ", ".join(taken) or "nothing"
-            raise InvalidArgument(f"{name}: the format {reader.name!r} does not take it; it takes: {takes}.")
-
-
-def _listed() -> str:
-    return "; ".join(f"{name!r} ({summary})" for name, summary in formats().items())
+def _rigid_body(path: Path, reader: Reader, names: Sequence[str], body: str | None, said: Stated) -> Recording:
+    assert reader.markers is not None
+    return rigid_body(reader.markers(path, said), names, body)

@@ -13,11 +13,12 @@ from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
-from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.errors import FileError, InvalidArgument, NotStated
 from dmpcpp.recordings.orientation import QuatOrder, from_matrices, from_quaternions
-from dmpcpp.recordings.reader import Reader, pick_body
-from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated, times_at_rate
 
 __all__ = ["READER", "bodies", "read", "read_arrays"]
@@ -28,46 +29,35 @@ _TIME_NAMES = ("time", "times", "t")
 _LARGEST_ARRAY = 256 * 1024 * 1024  # bytes; a hostile file may claim more than the machine has
 
 
-def bodies(path: Path, **_stated: object) -> tuple[str, ...]:
+def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
     """Return the one body of an array file, "pose"."""
     read_arrays(path)
     return (_BODY,)
 
 
-def read(
-    path: Path,
-    body: str | None,
-    *,
-    rate: float | None = None,
-    quat_order: QuatOrder | None = None,
-    index: int | None = None,
-    unit: str | float | None = None,
-    time_unit: str | float | None = None,
-    up_axis: Axis | None = None,
-) -> Recording:
-    """Return the poses as a Recording.
-
-    Parameters
-    ----------
-    rate : float, optional
-        Samples per second; needed where the file holds no times.
-    quat_order : "xyzw" or "wxyz", optional
-        Needed for (T, 7) and (T, 8).
-    index : int, optional
-        Which demonstration of an array (N, T, ...); counts from 0.
-    unit, time_unit, up_axis : optional
-        See `Stated`.
-    """
+def read(path: Path, body: str | None, stated: Stated) -> Recording:
+    """Return the poses; `rate` is needed where the file holds no times, `quat_order` for (T, 7) and (T, 8)."""
     body = pick_body(body, (_BODY,))
     arrays = {name: array for name, array in read_arrays(path).items() if array.dtype.kind == "f"}
-    poses = _chosen(_poses(arrays), index)
-    time, position, rotation, notes = _split(poses, quat_order)
+    poses = _chosen(_poses(arrays), stated.index)
+    lost = _lost(poses, stated.missing)
+    time, position, rotation, notes = _split(poses, stated.quat_order, lost)
     if time is None:
-        time = _times(arrays, len(poses), rate)
-    if index is not None:
-        notes = [f"demonstration {index} of the file", *notes]
-    stated = Stated(unit=unit, time_unit=time_unit, up_axis=up_axis)
+        time = _times(arrays, len(poses), stated.rate)
+    if stated.index is not None:
+        notes = [f"demonstration {stated.index} of the file", *notes]
+    position = np.where(lost[:, None], np.nan, position)
     return stated.recording(time=time, position=position, rotation=rotation, body=body, source=path.name, notes=notes)
+
+
+def _lost(poses: Array, missing: str | float | None) -> NDArray[np.bool_]:
+    """Return which samples (T,) were lost: any NaN in them."""
+    if missing not in (None, "nan"):
+        raise InvalidArgument(f"missing: {missing!r}, expected 'nan': in an array, NaN stands for a lost sample.")
+    if missing is None:
+        return np.zeros(len(poses), dtype=bool)
+    time = 1 if poses.ndim == 2 and poses.shape[1] == 8 else 0
+    return np.asarray(np.isnan(poses.reshape(len(poses), -1)[:, time:]).any(axis=1))
 
 
 def _poses(arrays: dict[str, Array]) -> Array:
@@ -90,9 +80,10 @@ def _chosen(poses: Array, index: int | None) -> Array:
     if poses.ndim == single + 1:
         if isinstance(index, int) and 0 <= index < len(poses):
             return np.asarray(poses[index])
-        raise InvalidArgument(
+        raise NotStated(
+            "index",
             f"index: {index!r}, expected 0 to {len(poses) - 1}: the array {poses.shape} holds "
-            f"{len(poses)} demonstrations."
+            f"{len(poses)} demonstrations.",
         )
     raise InvalidArgument(
         f"index {index!r} into an array of shape {poses.shape}: expected (T, 4, 4), (T, 7) or (T, 8) "
@@ -100,21 +91,24 @@ def _chosen(poses: Array, index: int | None) -> Array:
     )
 
 
-def _split(poses: Array, order: QuatOrder | None) -> tuple[Array | None, Array, Array, list[str]]:
+def _split(
+    poses: Array, order: QuatOrder | None, lost: NDArray[np.bool_]
+) -> tuple[Array | None, Array, Array, list[str]]:
     """Return time if it is among the columns, position, rotation and what was mended."""
     if poses.ndim == 3:
-        _check_bottom_row(poses)
-        rotation, notes = from_matrices(poses[:, :3, :3], "poses")
+        _check_bottom_row(np.where(lost[:, None, None], np.eye(4), poses))
+        rotation, notes = from_matrices(poses[:, :3, :3], "poses", lost)
         return None, poses[:, :3, 3], rotation, notes
     if order is None:
-        raise InvalidArgument(
+        raise NotStated(
+            "quat_order",
             f"quat_order: not stated, and an array of shape {poses.shape} does not tell it. "
-            "State quat_order='xyzw' or 'wxyz'."
+            "State quat_order='xyzw' or 'wxyz'.",
         )
     if poses.shape[1] not in (7, 8):
         raise InvalidArgument(f"poses: shape {poses.shape}, expected (T, 4, 4), (T, 7) or (T, 8).")
     time = poses[:, 0] if poses.shape[1] == 8 else None
-    rotation, notes = from_quaternions(poses[:, -4:], order)
+    rotation, notes = from_quaternions(poses[:, -4:], order, missing=lost)
     return time, poses[:, -7:-4], rotation, notes
 
 
@@ -188,6 +182,7 @@ def _array(file: BinaryIO, size: int) -> np.ndarray:
 READER = Reader(
     name="arrays",
     summary="a NumPy .npy or .npz of poses: (T, 4, 4), (T, 7) or (T, 8)",
+    takes=("rate", "quat_order", "index", "time_unit", "missing", *AXES),
     recognises=lambda path, head: head.startswith(b"\x93NUMPY") or path.suffix.lower() in (".npy", ".npz"),
     bodies=bodies,
     read=read,

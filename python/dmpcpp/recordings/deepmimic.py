@@ -19,6 +19,7 @@ from dmpcpp.recordings.reader import Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import read_text
+from dmpcpp.recordings.world import World
 
 __all__ = ["READER", "bodies", "read"]
 
@@ -63,13 +64,13 @@ _FIGURE: dict[str, _Joint] = {
 }
 
 
-def bodies(path: Path) -> tuple[str, ...]:
+def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
     """Return the figure's joints; "right_hand" and "left_hand" are the wrists."""
     _frames(path)
     return tuple(_FIGURE)
 
 
-def read(path: Path, body: str | None) -> Recording:
+def read(path: Path, body: str | None, stated: Stated) -> Recording:
     """Return the world pose of one joint of the figure.
 
     Only the joints between the root and `body` need sound quaternions. A frame lasts for its duration, so its
@@ -80,13 +81,14 @@ def read(path: Path, body: str | None) -> Recording:
     frames = _frames(path)
     notes = ["pose of the wrist; its orientation is the forearm's, the figure's wrist is fixed"]
     rotation, position, mended = _forward_kinematics(frames, body)
-    return Stated(unit="m", time_unit="s", up_axis="y").recording(
+    return stated.recording(
         time=_times(frames[:, 0]),
         position=position,
         rotation=rotation,
         body=body,
         source=path.name,
         notes=(notes if body.endswith("_hand") else []) + mended,
+        world=World(unit="m", time_unit="s", up_axis="y"),
     )
 
 
@@ -151,6 +153,7 @@ def _about_z(angle: Array) -> Array:
 READER = Reader(
     name="deepmimic",
     summary='a DeepMimic humanoid clip: JSON with "Frames" of 44 numbers',
+    takes=(),
     recognises=lambda path, head: head.lstrip().startswith(b"{"),
     bodies=bodies,
     read=read,

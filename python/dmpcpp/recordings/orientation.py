@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from dmpcpp.errors import InvalidArgument
+from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.recording import Array
 
-__all__ = ["REFUSE_ABOVE", "WARN_ABOVE", "QuatOrder", "from_matrices", "from_quaternions", "sign_flips"]
+__all__ = ["REFUSE_ABOVE", "WARN_ABOVE", "QuatOrder", "from_euler", "from_matrices", "from_quaternions", "sign_flips"]
 
 QuatOrder = Literal["xyzw", "wxyz"]
 
@@ -20,7 +21,9 @@ REFUSE_ABOVE = 0.1
 _ROUNDING = 1e-9  # below this nothing is worth a word
 
 
-def from_quaternions(quaternions: Array, order: QuatOrder, name: str = "quaternion") -> tuple[Array, list[str]]:
+def from_quaternions(
+    quaternions: Array, order: QuatOrder, name: str = "quaternion", missing: NDArray[np.bool_] | None = None
+) -> tuple[Array, list[str]]:
     """Turn quaternions into rotation matrices.
 
     Parameters
@@ -31,10 +34,13 @@ def from_quaternions(quaternions: Array, order: QuatOrder, name: str = "quaterni
         Where the scalar stands; it cannot be told from the data.
     name : str
         How messages call the quantity.
+    missing : array of bool (T,), optional
+        Samples that were lost; whatever stands there is not looked at.
 
     Returns
     -------
     rotations : array (T, 3, 3)
+        NaN where missing.
     notes : list of str
         What was mended: renormalisation with the largest correction, sign flips with their number.
 
@@ -45,6 +51,8 @@ def from_quaternions(quaternions: Array, order: QuatOrder, name: str = "quaterni
     """
     if order not in ("xyzw", "wxyz"):
         raise InvalidArgument(f"quat_order: {order!r}, expected 'xyzw' or 'wxyz'.")
+    missing = np.zeros(len(quaternions), dtype=bool) if missing is None else missing
+    quaternions = np.where(missing[:, None], [0.5, 0.5, 0.5, 0.5], quaternions)
     _check_finite(name, quaternions)
     with np.errstate(over="ignore"):
         norm = np.linalg.norm(quaternions, axis=1)
@@ -52,23 +60,29 @@ def from_quaternions(quaternions: Array, order: QuatOrder, name: str = "quaterni
     _refuse(name, "|q|", norm, off, "Check the quaternion columns; the recording may be corrupt there.")
     unit = quaternions / norm[:, None]
     notes = _renormalised(name, off)
-    flips = sign_flips(unit)
+    flips = np.flatnonzero(~missing)[sign_flips(unit[~missing])]
     if len(flips):
         notes.append(f"{name}: sign flips mended: {len(flips)} (the first at frame {flips[0]})")
-    return _matrices(unit if order == "wxyz" else np.roll(unit, 1, axis=1)), notes
+    rotation = _matrices(unit if order == "wxyz" else np.roll(unit, 1, axis=1))
+    return _blanked(rotation, missing), notes
 
 
-def from_matrices(matrices: Array, name: str = "rotation") -> tuple[Array, list[str]]:
+def from_matrices(
+    matrices: Array, name: str = "rotation", missing: NDArray[np.bool_] | None = None
+) -> tuple[Array, list[str]]:
     """Replace each 3 x 3 matrix by the nearest rotation: the orthogonal factor of its polar decomposition.
 
     Parameters
     ----------
     matrices : array (T, 3, 3)
         Singular values within 0.1 of 1, positive determinant.
+    missing : array of bool (T,), optional
+        Samples that were lost; whatever stands there is not looked at.
 
     Returns
     -------
     rotations : array (T, 3, 3)
+        NaN where missing.
     notes : list of str
 
     Raises
@@ -76,6 +90,8 @@ def from_matrices(matrices: Array, name: str = "rotation") -> tuple[Array, list[
     InvalidArgument
         A non-finite number, a reflection, or a matrix too far from a rotation; with the index.
     """
+    missing = np.zeros(len(matrices), dtype=bool) if missing is None else missing
+    matrices = np.where(missing[:, None, None], np.eye(3), matrices)
     _check_finite(name, matrices)
     matrices = np.clip(matrices, -10.0, 10.0)  # far from any rotation; keeps garbage from overflowing
     determinant = np.linalg.det(matrices)
@@ -88,12 +104,63 @@ def from_matrices(matrices: Array, name: str = "rotation") -> tuple[Array, list[
     off = np.abs(singular - 1.0).max(axis=1)
     worst = np.take_along_axis(singular, np.abs(singular - 1.0).argmax(axis=1)[:, None], axis=1)[:, 0]
     _refuse(name, "singular value", worst, off, "Check that the matrices are rotations without scale.")
-    return u @ vt, _renormalised(name, off)
+    return _blanked(u @ vt, missing), _renormalised(name, off)
+
+
+def from_euler(angles: Array, order: str | None, unit: str | None, missing: NDArray[np.bool_] | None = None) -> Array:
+    """Turn three angles about the axes into rotation matrices.
+
+    Parameters
+    ----------
+    angles : array (T, 3)
+        About x, y and z, in this order of columns, whatever the order of the rotations.
+    order : str
+        Of the rotations as scipy writes it: "XYZ" about the moving axes, the left one first; "xyz" about the
+        axes of the world.
+    unit : "deg" or "rad"
+    missing : array of bool (T,), optional
+        Samples that were lost.
+
+    Returns
+    -------
+    array (T, 3, 3)
+        NaN where missing.
+
+    Raises
+    ------
+    NotStated
+        No order or no unit.
+    InvalidArgument
+        One that is unknown, or an angle that is not finite.
+    """
+    from scipy.spatial.transform import Rotation
+
+    if order is None:
+        raise NotStated("euler_order", "euler_order: three angles do not tell their order. State for instance 'ZYX'.")
+    if unit is None:
+        raise NotStated("angle_unit", "angle_unit: not stated. State angle_unit='deg' or 'rad'.")
+    if (
+        not isinstance(order, str)
+        or sorted(order.lower()) != ["x", "y", "z"]
+        or order not in (order.lower(), order.upper())
+    ):
+        raise InvalidArgument(f"euler_order: {order!r}, expected x, y and z once each, 'ZYX' or 'xyz' for instance.")
+    if unit not in ("deg", "rad"):
+        raise InvalidArgument(f"angle_unit: {unit!r}, expected 'deg' or 'rad'.")
+    missing = np.zeros(len(angles), dtype=bool) if missing is None else missing
+    angles = np.where(missing[:, None], 0.0, angles)
+    _check_finite("angles", angles)
+    sorted_angles = angles[:, ["xyz".index(axis) for axis in order.lower()]]
+    return _blanked(Rotation.from_euler(order, sorted_angles, degrees=unit == "deg").as_matrix(), missing)
 
 
 def sign_flips(quaternions: Array) -> np.ndarray:
     """Return the k at which q[k] lies in the hemisphere opposite to q[k-1]; q and -q are one rotation."""
     return np.flatnonzero(np.einsum("ij,ij->i", quaternions[1:], quaternions[:-1]) < 0.0) + 1
+
+
+def _blanked(rotation: Array, missing: NDArray[np.bool_]) -> Array:
+    return np.where(missing[:, None, None], np.nan, rotation)
 
 
 def _check_finite(name: str, array: Array) -> None:

@@ -1,105 +1,145 @@
-"""What a file does not say and the caller must: its units and up axis; and the checks that catch a slip."""
+"""What the caller states about a file because the file does not say it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Literal
 
 import numpy as np
 
-from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings.recording import MIN_SAMPLES, Array, Axis, Recording
+from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.recordings.markers import Markers
+from dmpcpp.recordings.orientation import QuatOrder
+from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.recordings.world import Frame, Handedness, World
 
-__all__ = ["LENGTH_UNITS", "TIME_UNITS", "Stated", "times_at_rate"]
-
-LENGTH_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
-TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-
-_LIKELY_EXTENT = 5.0  # m; a limb's motion that is larger is more likely in another unit
-_LIKELY_STEP = (1e-5, 1.0)  # s; between samples
+__all__ = ["Stated", "times_at_rate"]
 
 
 @dataclass(frozen=True)
 class Stated:
-    """The caller's word on a file.
+    """The caller's word on a file; each reader takes those fields that its format leaves open.
 
     Parameters
     ----------
     unit : "m", "cm", "mm", metres per unit as a number, or None
-        None: `default_unit`, and a range above 5 m is refused as a likely slip.
+        Of lengths. None: what the file says, metres where it says nothing; then a range above 5 m or below
+        0.02 mm is refused as a likely slip. A number is never questioned.
     time_unit : "s", "ms", "us", "ns", seconds per unit as a number, or None
-        None: seconds, and steps outside 10 us .. 1 s are refused as a likely slip.
+        None: what the file says, or seconds, and steps outside 10 us .. 1 s are refused as a likely slip.
     up_axis : "x", "y", "z" or None
-        None: unknown.
-    metres_by_format : bool
-        The format says metres; without a stated `unit` that is what they are taken for, without a note.
+        The axis of the recording's world that points up. None: what the file says, or unknown.
+    handedness : "right", "left" or None
+        Of the world's axes. None: right. A left-handed recording is mirrored along a horizontal axis, for which
+        `up_axis` must be known.
+    rate : float, optional
+        Samples per second [Hz] of a file without times.
+    quat_order : "xyzw", "wxyz" or None
+        Order of the quaternions of an array.
+    euler_order : str, optional
+        Order of three rotations about the axes as scipy writes it: "XYZ" about the moving axes, first the left
+        one; "xyz" about the axes of the world. For columns `rx`, `ry`, `rz`.
+    angle_unit : "deg", "rad" or None
+        Of the columns `rx`, `ry`, `rz`.
+    missing : "empty", "nan", a number or None
+        How a table or an array writes a sample that was lost: an empty cell, `nan`, or a number in place of all
+        three coordinates. None: such cells are an error.
+    columns : mapping, optional
+        From "time", "x", "y", "z" and "qx", "qy", "qz", "qw" (or "rx", "ry", "rz") to the name of a column or
+        its number counted from 0.
+    delimiter : str, optional
+        Between the cells of a table; " " stands for any blanks.
+    skip_lines : int, optional
+        Lines before the header line of a table.
+    index : int, optional
+        Which demonstration of an array (N, T, ...), from 0.
     """
 
     unit: str | float | None = None
     time_unit: str | float | None = None
     up_axis: Axis | None = None
-    metres_by_format: bool = False
+    handedness: Handedness | None = None
+    rate: float | None = None
+    quat_order: QuatOrder | None = None
+    euler_order: str | None = None
+    angle_unit: Literal["deg", "rad"] | None = None
+    missing: str | float | None = None
+    columns: Mapping[str, str | int] | None = None
+    delimiter: str | None = None
+    skip_lines: int | None = None
+    index: int | None = None
+
+    def names(self) -> tuple[str, ...]:
+        """Return the names of what was stated."""
+        return tuple(field.name for field in fields(self) if getattr(self, field.name) is not None)
 
     def recording(
-        self, *, time: Array, position: Array, rotation: Array, body: str, source: str, notes: list[str]
+        self,
+        *,
+        time: Array,
+        position: Array,
+        rotation: Array,
+        body: str,
+        source: str,
+        notes: list[str],
+        world: World | None = None,
     ) -> Recording:
-        """Return the Recording in metres and seconds from 0; arrays as they stand in the file.
+        """Return the Recording in metres and seconds from 0; arrays as they stand in the file, NaN where lost.
 
         Raises
         ------
         InvalidArgument
             An unknown unit, an implausible range or rate, or whatever `Recording` refuses.
         """
-        length = _factor("unit", self.unit, LENGTH_UNITS)
-        clock = _factor("time_unit", self.time_unit, TIME_UNITS)
-        if len(time) < MIN_SAMPLES:
-            raise InvalidArgument(f"{len(time)} samples, expected at least {MIN_SAMPLES}.")
-        _check_finite_times(time)
-        notes = [*notes, *self._notes(float(time[0]) * clock)]
-        with np.errstate(over="ignore"):  # what overflows is refused as not finite
-            time, position = (time - time[0]) * clock, position * length
-        self._check_extent(position)
+        frame = self._frame(world)
         made = Recording(
-            time=time,
-            position=position,
-            rotation=rotation,
+            time=frame.times(time),
+            position=frame.points(position),
+            rotation=frame.rotations(rotation),
             body=body,
             source=source,
-            up_axis=self.up_axis,
-            history=tuple(notes),
+            up_axis=frame.up_axis,
+            history=(*notes, *_lost(np.isnan(position).all(axis=1)), *frame.notes(time)),
         )
-        self._check_step(made)
+        frame.check_step(made.time)
         return made
 
-    def _notes(self, start: float) -> list[str]:
-        notes = []
-        if self.unit is not None and self.unit != "m":
-            notes.append(f"positions converted from {_called(self.unit, 'm')} to m")
-        elif self.unit is None and not self.metres_by_format:
-            notes.append("no length unit stated: positions taken as metres")
-        if self.time_unit is not None and self.time_unit != "s":
-            notes.append(f"times converted from {_called(self.time_unit, 's')} to s")
-        if start != 0.0:
-            notes.append(f"time counted from the first sample at {start:.9g} s")
-        return notes
+    def marker_set(
+        self,
+        *,
+        time: Array,
+        position: Array,
+        names: tuple[str, ...],
+        source: str,
+        notes: list[str],
+        world: World | None = None,
+    ) -> Markers:
+        """Return the Markers in metres and seconds from 0; `position` (T, M, 3) as it stands in the file.
 
-    def _check_extent(self, position: Array) -> None:
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is for Recording to name
-            extent = np.ptp(position, axis=0)
-        axis = int(np.argmax(extent))
-        if self.unit is None and extent[axis] > _LIKELY_EXTENT:
-            raise InvalidArgument(
-                f"position: {'xyz'[axis]} ranges over {extent[axis]:.4g} m, more than {_LIKELY_EXTENT:g}. "
-                "Are these millimetres or centimetres? State unit='mm' or 'cm', or unit='m' if it is right."
-            )
+        Raises
+        ------
+        InvalidArgument
+            See `recording`.
+        """
+        frame = self._frame(world)
+        made = Markers(
+            names=names,
+            time=frame.times(time),
+            position=frame.points(position),
+            source=source,
+            up_axis=frame.up_axis,
+            history=(*notes, *frame.notes(time)),
+        )
+        frame.check_step(made.time)
+        return made
 
-    def _check_step(self, made: Recording) -> None:
-        step = float(np.median(np.diff(made.time)))
-        low, high = _LIKELY_STEP
-        if self.time_unit is None and not low <= step <= high:
-            raise InvalidArgument(
-                f"time: {step:.4g} s between samples, expected {low:g} to {high:g} s. "
-                "State time_unit='ms', 'us' or 'ns', or time_unit='s' if it is right."
-            )
+    def without(self, *names: str) -> Stated:
+        """Return a copy in which the fields of these names are not stated."""
+        return replace(self, **dict.fromkeys(names))
+
+    def _frame(self, world: World | None) -> Frame:
+        return Frame(self.unit, self.time_unit, self.up_axis, self.handedness, world or World())
 
 
 def times_at_rate(count: int, rate: float | None) -> Array:
@@ -107,32 +147,18 @@ def times_at_rate(count: int, rate: float | None) -> Array:
 
     Raises
     ------
+    NotStated
+        No rate stated.
     InvalidArgument
-        No rate stated, or one that is not a positive number.
+        One that is not a positive number.
     """
     if rate is None:
-        raise InvalidArgument("rate: the file holds no times. State the sampling rate in Hz: rate=100.")
+        raise NotStated("rate", "rate: the file holds no times. State the sampling rate in Hz: rate=100.")
     if isinstance(rate, bool) or not isinstance(rate, int | float | np.number) or not 0.0 < rate < 1e6:
         raise InvalidArgument(f"rate: {rate!r}, expected a sampling rate in Hz above 0.")
     return np.arange(count) / float(rate)
 
 
-def _check_finite_times(time: Array) -> None:
-    if not np.isfinite(time).all():
-        k = int(np.argmin(np.isfinite(time)))
-        raise InvalidArgument(f"time[{k}]: {time[k]}, expected a finite number.")
-
-
-def _factor(name: str, unit: str | float | None, known: dict[str, float]) -> float:
-    if unit is None:
-        return 1.0
-    if isinstance(unit, str):
-        if unit in known:
-            return known[unit]
-    elif not isinstance(unit, bool) and isinstance(unit, int | float) and 0.0 < unit < np.inf:
-        return float(unit)
-    raise InvalidArgument(f"{name}: {unit!r}, expected one of {', '.join(known)} or a positive factor.")
-
-
-def _called(unit: str | float, base: str) -> str:
-    return unit if isinstance(unit, str) else f"units of {unit:g} {base}"
+def _lost(missing: np.ndarray) -> list[str]:
+    count = int(missing.sum())
+    return [f"{count} of {len(missing)} samples are missing (the first: {int(np.argmax(missing))})"] if count else []

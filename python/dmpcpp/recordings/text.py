@@ -50,11 +50,11 @@ def read_text(path: Path) -> str:
         ) from None
 
 
-def data_lines(text: str, comment: str = "#") -> Iterator[tuple[int, str]]:
-    """Yield (line number from 1, stripped line) of the lines that are neither blank nor comments."""
+def data_lines(text: str, comment: str = "#", skip: int = 0) -> Iterator[tuple[int, str]]:
+    """Yield (line number from 1, stripped line) of the lines behind `skip` that are neither blank nor comments."""
     for count, line in enumerate(text.split("\n"), start=1):
         stripped = line.strip("\r ")
-        if stripped.strip() and not stripped.lstrip().startswith(comment):
+        if count > skip and stripped.strip() and not stripped.lstrip().startswith(comment):
             yield count, stripped
 
 

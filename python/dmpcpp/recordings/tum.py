@@ -11,10 +11,11 @@ import numpy as np
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.orientation import from_quaternions
-from dmpcpp.recordings.reader import Reader, pick_body
-from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import data_lines, number, read_text
+from dmpcpp.recordings.world import World
 
 __all__ = ["READER", "bodies", "read"]
 
@@ -22,28 +23,25 @@ _COLUMNS = ("t", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
 _BODY = "pose"
 
 
-def bodies(path: Path) -> tuple[str, ...]:
+def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
     """Return the one body of a TUM file, "pose"."""
     _rows(path)
     return (_BODY,)
 
 
-def read(path: Path, body: str | None, *, unit: str | float | None = None, up_axis: Axis | None = None) -> Recording:
-    """Return the trajectory.
-
-    Parameters
-    ----------
-    unit : str or float, optional
-        The format says metres; state another, or "m" to allow a range above 5 m.
-    up_axis : "x", "y" or "z", optional
-        The format does not say it.
-    """
+def read(path: Path, body: str | None, stated: Stated) -> Recording:
+    """Return the trajectory; the format says s and m, but not which axis is up."""
     body = pick_body(body, (_BODY,))
     rows = _rows(path)
     rotation, notes = from_quaternions(rows[:, 4:8], "xyzw")
-    stated = Stated(unit=unit, time_unit="s", up_axis=up_axis, metres_by_format=True)
     return stated.recording(
-        time=rows[:, 0], position=rows[:, 1:4], rotation=rotation, body=body, source=path.name, notes=notes
+        time=rows[:, 0],
+        position=rows[:, 1:4],
+        rotation=rotation,
+        body=body,
+        source=path.name,
+        notes=notes,
+        world=World(unit="m", time_unit="s"),
     )
 
 
@@ -79,6 +77,7 @@ def _is_number(cell: bytes) -> bool:
 READER = Reader(
     name="tum",
     summary="a TUM trajectory: lines of t tx ty tz qx qy qz qw, s and m",
+    takes=AXES,
     recognises=_recognises,
     bodies=bodies,
     read=read,

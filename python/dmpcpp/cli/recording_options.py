@@ -1,0 +1,100 @@
+"""The options that say which motion of a file is meant, and what the file does not say; `imitate`, `inspect`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import click
+
+from dmpcpp.errors import InvalidArgument
+
+__all__ = ["flag", "recording_options", "taken_recording"]
+
+_OPTIONS = (
+    click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several."),
+    click.option("--markers", metavar="A,B,C", help="Markers on one rigid body, three or more, for files of markers."),
+    click.option(
+        "--format", "format", metavar="NAME", help="The file's format; by default told from its name and content."
+    ),
+    click.option("--unit", metavar="m|cm|mm|F", help="Unit of lengths; a number is metres per unit."),
+    click.option("--time-unit", metavar="s|ms|us|ns|F", help="Unit of times; a number is seconds per unit."),
+    click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times."),
+    click.option("--up-axis", "--up", metavar="x|y|z", help="The recording's axis that points up."),
+    click.option("--handedness", metavar="right|left", help="Of the recording's world; right unless given."),
+    click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
+    click.option("--euler-order", metavar="ORDER", help="Of columns rx, ry, rz: ZYX moving axes, zyx fixed ones."),
+    click.option("--angle-unit", metavar="deg|rad", help="Of columns rx, ry, rz."),
+    click.option("--missing", metavar="empty|nan|N", help="How a table or array writes a sample that was lost."),
+    click.option(
+        "--columns",
+        metavar="time=..,x=..",
+        help="Columns of a table by name or number: time, x, y, z, and qx, qy, qz, qw or rx, ry, rz.",
+    ),
+    click.option("--delimiter", metavar="C", help="Between the cells of a table; 'tab' for a tab."),
+    click.option("--skip-lines", type=int, metavar="N", help="Lines before the header line of a table."),
+    click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0."),
+)
+_NAMES = (
+    "body",
+    "markers",
+    "format",
+    "unit",
+    "time_unit",
+    "rate",
+    "up_axis",
+    "handedness",
+    "quat_order",
+    "euler_order",
+    "angle_unit",
+    "missing",
+    "columns",
+    "delimiter",
+    "skip_lines",
+    "index",
+)
+
+
+def recording_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options to a command; `taken_recording` takes them out of its arguments."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
+    """Take the options out of a command's arguments: what `recordings.load` and `inspect` take beside the file."""
+    taken = {name: value for name in _NAMES if (value := options.pop(name)) is not None}
+    for name in ("unit", "time_unit", "missing"):
+        if name in taken:
+            taken[name] = _number_or_word(taken[name])
+    if "columns" in taken:
+        taken["columns"] = _columns(taken["columns"])
+    if "markers" in taken:
+        taken["markers"] = [name.strip() for name in taken["markers"].split(",")]
+    if taken.get("delimiter") in ("tab", "\\t"):
+        taken["delimiter"] = "\t"
+    return taken
+
+
+def flag(parameter: str) -> str:
+    """Return the option that states a parameter of the library: up_axis is --up-axis."""
+    return "--" + parameter.replace("_", "-")
+
+
+def _number_or_word(text: str) -> str | float:
+    try:
+        value = float(text)
+    except ValueError:
+        return text
+    return text if value != value else value  # the word nan is no number here
+
+
+def _columns(text: str) -> dict[str, str | int]:
+    columns: dict[str, str | int] = {}
+    for part in text.split(","):
+        name, equals, column = part.partition("=")
+        if not equals or not column:
+            raise InvalidArgument(f"--columns: '{part}', expected NAME=COLUMN such as x=3 or x=hand_x.")
+        columns[name.strip()] = int(column) if column.strip().isdigit() else column.strip()
+    return columns

@@ -1,0 +1,274 @@
+"""What a recording holds, before anything is learned from it: bodies, rate, gaps, jumps, noise, and what to state.
+
+>>> from dmpcpp import inspection
+>>> found = inspection.inspect("reach.bvh")                       # doctest: +SKIP
+>>> found.needed                                                  # doctest: +SKIP
+{'unit': "reach.bvh: unit: a BVH file does not say its unit of length. State unit='cm', ..."}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.recordings.markers import Markers
+from dmpcpp.recordings.noise import noise, white_noise
+from dmpcpp.recordings.reader import Reader
+from dmpcpp.recordings.recording import Array, Recording
+from dmpcpp.recordings.registry import prepared
+from dmpcpp.recordings.rigid_body import rigid_body
+from dmpcpp.recordings.stated import Stated
+
+__all__ = ["LONGEST_GAP", "BodyReport", "Inspection", "MarkerReport", "inspect"]
+
+LONGEST_GAP = 0.2
+"""s; a longer gap can not be filled in good faith: a hand turns round within it."""
+
+_JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn can not be told from its reverse
+
+
+@dataclass(frozen=True)
+class BodyReport:
+    """What one body's recording is like; lengths in m, times in s, angles in rad.
+
+    `noise_position` and `noise_angle` are standard deviations along and about one axis, see `noise`; `extent` is the
+    range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples. `refused` says why
+    the body can not be read, and then nothing else is known.
+    """
+
+    name: str
+    samples: int = 0
+    duration: float = 0.0
+    rate: float = 0.0
+    missing: int = 0
+    longest_gap: float = 0.0
+    jumps: int = 0
+    noise_position: float = 0.0
+    noise_angle: float = 0.0
+    extent: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    peak_speed: float = 0.0
+    peak_turning: float = 0.0
+    history: tuple[str, ...] = ()
+    refused: str = ""
+
+
+@dataclass(frozen=True)
+class MarkerReport:
+    """What one marker's recording is like; m and s."""
+
+    name: str
+    missing: int
+    longest_gap: float
+    noise_position: float
+    extent: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What a file holds.
+
+    Parameters
+    ----------
+    source, format : str
+        The file's name and format.
+    held : tuple of str
+        All bodies of the file.
+    bodies : tuple of BodyReport
+        Of the bodies that were looked at.
+    markers : tuple of MarkerReport
+    samples : int, duration : float, rate : float
+        Of the markers, where the file holds markers only.
+    needed : dict
+        What must be stated before a motion can be read, with the reason.
+    assumed : dict
+        What was taken for granted, with what it was taken as.
+    """
+
+    source: str
+    format: str
+    held: tuple[str, ...] = ()
+    bodies: tuple[BodyReport, ...] = ()
+    markers: tuple[MarkerReport, ...] = ()
+    samples: int = 0
+    duration: float = 0.0
+    rate: float = 0.0
+    needed: dict[str, str] = field(default_factory=dict)
+    assumed: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What keeps the bodies looked at from being learned as they are, one sentence each."""
+        return tuple(problem for body in self.bodies for problem in _problems(body))
+
+    @property
+    def ok(self) -> bool:
+        """Whether one body was read with nothing left to state and no problem."""
+        return len(self.bodies) > 0 and not self.needed and not self.problems
+
+    def summary(self) -> dict[str, Any]:
+        """Return all of it as plain values, for JSON."""
+        return {**asdict(self), "problems": list(self.problems), "ok": self.ok}
+
+
+def inspect(
+    path: str | PathLike[str],
+    body: str | None = None,
+    format: str | None = None,
+    *,
+    markers: Sequence[str] | None = None,
+    **stated: object,
+) -> Inspection:
+    """Look into a file; what it does not say is reported rather than refused.
+
+    Parameters and errors are those of `recordings.load`, but for what must be stated: without it, the report says so.
+    Without `body` all bodies are looked at.
+    """
+    path = Path(path)
+    try:
+        reader, said = prepared(path, format, stated)
+    except NotStated as error:
+        return Inspection(path.name, "unknown", needed=_needed(error))
+    try:
+        held = reader.call(reader.bodies, path, said)
+        if markers is not None or (not held and reader.markers is not None):
+            return _of_markers(reader, path, said, body, markers)
+    except NotStated as error:
+        return Inspection(path.name, reader.name, needed=_needed(error))
+    return _of_bodies(reader, path, said, held, body)
+
+
+def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], body: str | None) -> Inspection:
+    reports, needed, assumed = [], {}, {}
+    for name in held if body is None else (body,):
+        try:
+            recording = reader.call(reader.read, path, name, said)
+        except NotStated as error:
+            needed.update(_needed(error))
+            break
+        except InvalidArgument as error:
+            if name not in held or len(held) == 1 or body is not None:
+                raise
+            reports.append(BodyReport(name, refused=str(error)))
+        else:
+            reports.append(_report(recording))
+            assumed = _assumed(recording.up_axis, recording.history)
+    if body is None and len(held) > 1:
+        needed["body"] = f"the file holds several: {', '.join(held)}"
+    return Inspection(path.name, reader.name, held, tuple(reports), needed=needed, assumed=assumed)
+
+
+def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, names: Sequence[str] | None) -> Inspection:
+    if reader.markers is None:
+        raise InvalidArgument(f"{path.name}: markers: the format {reader.name!r} holds none.")
+    found = reader.call(reader.markers, path, said)
+    reports = tuple(_marker(found, k) for k in range(len(found.names)))
+    needed = {}
+    bodies: tuple[BodyReport, ...] = ()
+    if names is None:
+        needed["markers"] = "three or more that sit on one rigid body"
+    else:
+        bodies = (_report(reader.call(lambda _: rigid_body(found, names, body), path)),)
+    return Inspection(
+        source=path.name,
+        format=reader.name,
+        bodies=bodies,
+        markers=reports,
+        samples=len(found),
+        duration=found.duration,
+        rate=found.rate,
+        needed=needed,
+        assumed=_assumed(found.up_axis, found.history),
+    )
+
+
+def _needed(error: NotStated) -> dict[str, str]:
+    return dict.fromkeys(error.names, str(error))
+
+
+def _assumed(up_axis: str | None, history: tuple[str, ...]) -> dict[str, str]:
+    assumed = {}
+    if any(note.startswith("no length unit stated") for note in history):
+        assumed["unit"] = "m"
+    if up_axis is None:
+        assumed["up_axis"] = "z"
+    return assumed
+
+
+def _report(recording: Recording) -> BodyReport:
+    there = ~recording.missing
+    time, position = recording.time[there], recording.position[there]
+    steps = np.diff(time)
+    turned = _turns(recording.rotation[there])
+    position_noise, angle_noise = noise(recording)
+    return BodyReport(
+        name=recording.body,
+        samples=len(recording),
+        duration=recording.duration,
+        rate=recording.rate,
+        missing=int((~there).sum()),
+        longest_gap=_longest_gap(recording.time, there),
+        jumps=int((turned > _JUMP).sum()),
+        noise_position=position_noise,
+        noise_angle=angle_noise,
+        extent=_extent(position),
+        peak_speed=float((np.linalg.norm(np.diff(position, axis=0), axis=1) / steps).max()),
+        peak_turning=float((turned / steps).max()),
+        history=recording.history,
+    )
+
+
+def _marker(markers: Markers, k: int) -> MarkerReport:
+    there = ~markers.missing[:, k]
+    position = markers.position[:, k]
+    return MarkerReport(
+        name=markers.names[k],
+        missing=int((~there).sum()),
+        longest_gap=_longest_gap(markers.time, there),
+        noise_position=white_noise(position),
+        extent=_extent(position[there]),
+    )
+
+
+def _turns(rotation: Array) -> Array:
+    turning = Rotation.from_matrix(rotation)
+    return np.asarray((turning[:-1].inv() * turning[1:]).magnitude())
+
+
+def _extent(position: Array) -> tuple[float, float, float]:
+    if not len(position):
+        return 0.0, 0.0, 0.0
+    x, y, z = np.ptp(position, axis=0).tolist()
+    return x, y, z
+
+
+def _longest_gap(time: Array, there: NDArray[np.bool_]) -> float:
+    """Return the longest time without a sample that is there, beyond the usual step; the ends count [s]."""
+    known = time[there]
+    if not len(known):
+        return float(time[-1])
+    usual = float(np.median(np.diff(time)))
+    steps = np.diff(known, prepend=time[0], append=time[-1])
+    longest = float(steps.max())
+    return longest if longest > 1.75 * usual else 0.0
+
+
+def _problems(body: BodyReport) -> list[str]:
+    if body.refused:
+        return [f"{body.name}: {body.refused}"]
+    problems = []
+    if body.longest_gap > LONGEST_GAP:
+        problems.append(f"{body.name}: a gap of {body.longest_gap:.3g} s, more than {LONGEST_GAP:g} s. Crop it out.")
+    if body.jumps:
+        problems.append(
+            f"{body.name}: the orientation jumps by more than 90 deg {body.jumps} times. Check the quaternion order "
+            "and the rate, or crop the jumps out."
+        )
+    return problems
