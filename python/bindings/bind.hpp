@@ -11,6 +11,7 @@ void bind_demonstration(pybind11::module_& m);
 void bind_dmp(pybind11::module_& m);
 void bind_orientation_dmp(pybind11::module_& m);
 void bind_pose_dmp(pybind11::module_& m);
+void bind_align(pybind11::module_& m);
 void bind_learning(pybind11::module_& m);
 void bind_file(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);

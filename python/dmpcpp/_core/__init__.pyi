@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'Trajectory', 'assess', 'average', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'Trajectory', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'to_json']
 class InvalidArgument(ValueError):
     pass
 class FileError(OSError):
@@ -912,6 +912,22 @@ class PoseRun:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
         """
+class Alignment:
+    """
+    Which samples of two motions belong together.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def distance(self) -> float:
+        """
+        sum over the path of the distances of its pairs; divide by len(path) for the mean
+        """
+    @property
+    def path(self) -> numpy.typing.NDArray[numpy.int64]:
+        """
+        (K, 2) indices into the first and the second, from the first of both to the last of both; each row goes on by one sample in one motion or in both
+        """
 class FitReport:
     """
     How a model reproduces demonstrations. Columns: dimensions of a position; components of the rotation vector between the orientations; for poses three of each.
@@ -1439,6 +1455,10 @@ class InverseKinematics:
     @property
     def options(self) -> IkOptions:
         ...
+def align(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, angle_weight: typing.SupportsFloat | typing.SupportsIndex = 0.2, band: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Alignment:
+    """
+    Dynamic time warping (Sakoe and Chiba 1978, steps of weight 1 each) of rows (T, d) and (S, d) by their Euclidean distance, or of poses (T, 4, 4) and (S, 4, 4) by |pa - pb| + angle_weight * angle(Ra, Rb) [m; angle_weight in m/rad]. `band`: how many samples of b a pair may lie off the straight line from the first pair to the last, widened where no path would fit. Raises InvalidArgument, naming the sample, for numbers that are not finite, no samples, matrices that are no rotations, different columns.
+    """
 @typing.overload
 def assess(model: Dmp, demonstrations: collections.abc.Sequence[Demonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
     """
@@ -1472,6 +1492,10 @@ def average(models: collections.abc.Sequence[PoseDmp]) -> PoseDmp:
 def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
     """
     The smallest factor on the duration with which the joints' spline stays within the limits (n,) and (n,).
+    """
+def frechet(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+    """
+    Discrete Frechet distance of paths (T, d) and (S, d), in their unit: the shortest leash that lets a walker on each reach the end, both going forward only, from sample to sample (Eiter and Mannila 1994).
     """
 def from_json(text: str) -> typing.Any:
     """
