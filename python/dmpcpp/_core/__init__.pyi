@@ -186,6 +186,10 @@ class PoseDemonstration:
         """
     def __len__(self) -> int:
         ...
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) standard deviation of the noise found in the data by generalised cross-validation: of positions [m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples
+        """
     def smoothed(self) -> PoseDemonstration:
         """
         The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().

@@ -24,16 +24,19 @@ _ROTATION_TOLERANCE = 1e-6  # largest element of R^T R - I; readers orthonormali
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """The motion of one body, checked: whoever holds a Recording holds finite, ordered, proper data.
+    """The motion of one body, checked: whoever holds a Recording holds ordered, proper data.
+
+    A sample that the recording system lost stays in its place as NaN in all of position and rotation, so that a
+    gap is seen for what it is; `missing` tells which. Every other number is finite.
 
     Parameters
     ----------
     time : array_like (T,)
         s, starts at 0, strictly increasing, T >= 8.
     position : array_like (T, 3)
-        m, of the body's origin in the recording's world frame.
+        m, of the body's origin in the recording's world frame; NaN where the sample is missing.
     rotation : array_like (T, 3, 3)
-        Proper rotations, body -> world.
+        Proper rotations, body -> world; NaN where the sample is missing. At least two samples are there.
     body : str
         Which body of the source this is.
     source : str
@@ -67,8 +70,16 @@ class Recording:
         object.__setattr__(self, "history", tuple(self.history))
         _check_shapes(self.time, self.position, self.rotation)
         _check_time(self.time)
-        _check_position(self.position)
-        _check_rotation(self.rotation)
+        missing = self.missing
+        if len(self.time) - missing.sum() < 2:
+            raise InvalidArgument(
+                f"position: {missing.sum()} of {len(self.time)} samples are missing (NaN), expected at least two that "
+                "are there. Is it the right body?"
+            )
+        _check_finite("position", self.position, missing)
+        _check_finite("rotation", self.rotation, missing)
+        _check_position(self.position[~missing])
+        _check_rotation(self.rotation, missing)
         if self.up_axis not in (None, "x", "y", "z"):
             raise InvalidArgument(f"up_axis: {self.up_axis!r}, expected 'x', 'y', 'z' or None.")
 
@@ -92,6 +103,12 @@ class Recording:
     def rate(self) -> float:
         """Return the mean sampling rate [Hz]; the samples need not be evenly spaced."""
         return (len(self) - 1) / self.duration
+
+    @property
+    def missing(self) -> NDArray[np.bool_]:
+        """Which samples are missing (T,): NaN in all of position and rotation."""
+        rotation = np.isnan(self.rotation).all(axis=(1, 2))
+        return np.asarray(np.isnan(self.position).all(axis=1) & rotation)
 
     def with_(self, note: str, **changes: object) -> Recording:
         """Return a copy with the fields in `changes` replaced and `note` appended to its history."""
@@ -121,13 +138,17 @@ def _check_shapes(time: Array, position: Array, rotation: Array) -> None:
             raise InvalidArgument(f"{name}: shape {array.shape}, expected {expected} as there are {len(time)} times.")
 
 
-def _check_finite(name: str, array: Array) -> None:
-    if np.isfinite(array).all():
+def _check_finite(name: str, array: Array, missing: NDArray[np.bool_] | None = None) -> None:
+    wrong = ~np.isfinite(array)
+    if missing is not None:
+        wrong[missing] = False
+    if not wrong.any():
         return
-    index = np.argwhere(~np.isfinite(array))[0]
+    index = np.argwhere(wrong)[0]
     where = ", ".join(str(i) for i in index)
+    advice = "" if missing is None else " A missing sample is NaN in all of position and rotation."
     raise InvalidArgument(
-        f"{name}[{where}]: {array[tuple(index)]}, expected a finite number. Cut the sample out or fill it."
+        f"{name}[{where}]: {array[tuple(index)]}, expected a finite number. Cut the sample out or fill it.{advice}"
     )
 
 
@@ -146,7 +167,6 @@ def _check_time(time: Array) -> None:
 
 
 def _check_position(position: Array) -> None:
-    _check_finite("position", position)
     with np.errstate(over="ignore"):
         extent = np.ptp(position, axis=0)
     axis = int(np.argmax(extent))
@@ -157,8 +177,8 @@ def _check_position(position: Array) -> None:
         )
 
 
-def _check_rotation(rotation: Array) -> None:
-    _check_finite("rotation", rotation)
+def _check_rotation(rotation: Array, missing: NDArray[np.bool_]) -> None:
+    rotation = np.where(missing[:, None, None], np.eye(3), rotation)
     with np.errstate(over="ignore", invalid="ignore"):
         gram = np.swapaxes(rotation, 1, 2) @ rotation
         error = np.abs(gram - np.eye(3)).max(axis=(1, 2))
