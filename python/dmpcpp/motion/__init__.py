@@ -16,6 +16,7 @@ from dmpcpp.motion.frames import relative_to, relative_to_pose
 from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, split
 from dmpcpp.motion.outliers import outliers
 from dmpcpp.motion.poses import complete, continuous, demonstration, poses, quaternions, turn_angles
+from dmpcpp.motion.preparation import Preparation, prepare
 from dmpcpp.motion.segmentation import cycles, segments, speed
 from dmpcpp.motion.smoothing import Noise, low_pass, noise, smooth
 from dmpcpp.motion.timing import crop, refine, resample
@@ -24,6 +25,7 @@ __all__ = [
     "LONGEST_GAP",
     "Gap",
     "Noise",
+    "Preparation",
     "Spread",
     "aligned",
     "complete",
@@ -39,6 +41,7 @@ __all__ = [
     "noise",
     "outliers",
     "poses",
+    "prepare",
     "quaternions",
     "refine",
     "relative_to",

@@ -12,7 +12,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion.poses import continuous, demonstration, positive, quaternions
 from dmpcpp.recordings.recording import Array, Recording
 
-__all__ = ["Noise", "low_pass", "noise", "smooth"]
+__all__ = ["Noise", "evenly_sampled", "low_pass", "noise", "smooth"]
 
 _EVEN = 0.1  # largest deviation of a step from the mean step that a filter for even sampling bears
 
@@ -94,12 +94,16 @@ def low_pass(recording: Recording, cutoff: float, order: int = 2) -> Recording:
     )
 
 
-def _check_even(recording: Recording) -> None:
-    steps = np.diff(recording.time)
+def evenly_sampled(recording: Recording) -> bool:
+    """Whether every step is within 10 % of the mean one, which a filter can bear."""
     mean = 1.0 / recording.rate
-    off = np.abs(steps - mean)
-    if off.max() > _EVEN * mean:
-        k = int(np.argmax(off)) + 1
+    return bool(np.abs(np.diff(recording.time) - mean).max() <= _EVEN * mean)
+
+
+def _check_even(recording: Recording) -> None:
+    if not evenly_sampled(recording):
+        steps, mean = np.diff(recording.time), 1.0 / recording.rate
+        k = int(np.argmax(np.abs(steps - mean))) + 1
         raise InvalidArgument(
             f"time[{k}]: {1e3 * steps[k - 1]:.4g} ms after the sample before, expected {1e3 * mean:.4g} "
             "ms: a filter needs even steps. Resample first."
