@@ -45,6 +45,12 @@ def test_a_reproduction_is_judged_by_the_noise_found_or_by_1_mm():
     assert angle.ok and angle.limit == pytest.approx(0.012) and angle.detail == "noise 0.23 deg"
 
 
+def test_noise_excuses_no_more_than_8_mm():
+    position, angle = learning.reproduction_checks(StageErrors(9e-3, 9e-3, 0.03, 0.05), Noise(10e-3, 0.1))
+    assert not position.ok and position.limit == pytest.approx(8e-3)
+    assert not angle.ok and angle.limit == pytest.approx(np.radians(1.5))
+
+
 def test_by_default_gaps_and_outliers_are_mended_and_nothing_else():
     recording = screw()
     assert prepare(recording) is recording
