@@ -121,6 +121,24 @@ def test_smoothing_takes_white_noise_out_and_says_how_much_there_was():
     np.testing.assert_allclose(motion.demonstration(noisy).noise()[:3], 1e-3, rtol=0.2)
 
 
+def test_the_noise_is_found_at_uneven_times_too_and_a_smooth_motion_has_none():
+    random = np.random.default_rng(9)
+    time = np.concatenate([[0.0], np.cumsum(random.uniform(0.005, 0.02, 600))])
+    clean = Recording(
+        time=time,
+        position=np.column_stack([np.sin(2 * time), np.cos(2 * time), 0.1 * time]),
+        rotation=Rotation.from_rotvec(np.outer(time, [1.5, 0.0, 0.0])).as_matrix(),
+    )
+    assert motion.noise(clean).position < 1e-9 and motion.noise(clean).angle < 1e-9
+    noisy = clean.with_(
+        "",
+        position=clean.position + random.normal(0, 2e-3, (601, 3)),
+        rotation=clean.rotation @ Rotation.from_rotvec(random.normal(0, 0.02, (601, 3))).as_matrix(),
+    )
+    assert motion.noise(noisy).position == pytest.approx(2e-3, rel=0.15)
+    assert motion.noise(noisy).angle == pytest.approx(0.02, rel=0.15)
+
+
 def test_a_fixed_frame_is_a_moving_one_that_stands_still():
     recording = screw()
     frame = np.eye(4)

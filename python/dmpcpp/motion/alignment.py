@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from dmpcpp import _core
@@ -103,13 +104,14 @@ def _warped(
     )
 
 
-def _smooth_warp(path: Array, share: Array, time: Array) -> Array:
+def _smooth_warp(path: NDArray[np.int64], share: Array, time: Array) -> Array:
     """Return when [s] in the recording each sample of the reference, at `share` (0 to 1), happens."""
     matched = np.bincount(path[:, 0], time[path[:, 1]]) / np.bincount(path[:, 0])
     knots = np.linspace(0.0, 1.0, min(_KNOTS, len(share)))
     reach = 0.5 / (len(knots) - 1)
     at = np.array([matched[np.abs(share - knot) <= reach].mean() for knot in knots[1:-1]])
-    return np.clip(PchipInterpolator(knots, [time[0], *at, time[-1]])(share), time[0], time[-1])
+    warp = PchipInterpolator(knots, [time[0], *at, time[-1]])
+    return np.asarray(np.clip(warp(share), time[0], time[-1]))
 
 
 def _tempo(at: Array, time: Array) -> tuple[float, float]:

@@ -5,15 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.motion.poses import continuous, demonstration, positive, quaternions
+from dmpcpp.motion.poses import complete, continuous, demonstration, positive, quaternions
 from dmpcpp.recordings.recording import Array, Recording
 
 __all__ = ["Noise", "evenly_sampled", "low_pass", "noise", "smooth"]
 
+_DIFFERENCED = 7  # samples in a row
 _EVEN = 0.1  # largest deviation of a step from the mean step that a filter for even sampling bears
 
 
@@ -33,16 +35,23 @@ class Noise:
 
 
 def noise(recording: Recording) -> Noise:
-    """Estimate the noise from the data alone: what the smoothing spline whose stiffness generalised cross-validation
-    chose leaves over (Craven and Wahba, "Smoothing noisy data with spline functions", 1979). Noise that is not
-    white, such as drift, is not seen.
+    """Estimate the noise from the data alone, by what seven samples in a row deviate from any quintic polynomial.
+
+    Of samples with independent noise that deviation, weighted by divided differences of sixth order whose weights have
+    length 1, has the standard deviation of the noise (Gasser, Sroka and Jennen-Steinmetz, "Residual variance and
+    residual pattern in nonlinear regression", 1986, with a higher order). Slow noise such as drift is not seen; a
+    motion too fast for its rate looks like noise.
     """
-    found = np.sqrt(np.mean(np.square(demonstration(recording).noise().reshape(2, 3)), axis=1))
-    return Noise(float(found[0]), float(found[1]))
+    complete(recording)
+    weights = _difference_weights(recording.time)
+    turn = 2.0 * quaternions(recording)[0]  # a turn by v changes a quaternion by v / 2, in three directions of four
+    position, angle = (_deviation(weights, values) for values in (recording.position, turn))
+    return Noise(position, angle)
 
 
 def smooth(recording: Recording) -> Recording:
-    """Take the noise out that is found in the data: smoothing splines by generalised cross-validation.
+    """Take the noise out: smoothing splines whose stiffness generalised cross-validation finds in the data (Craven and
+    Wahba, "Smoothing noisy data with spline functions", 1979).
 
     Needs no even steps and no parameter; the history tells the noise that was found and how far the samples were
     moved.
@@ -98,6 +107,20 @@ def evenly_sampled(recording: Recording) -> bool:
     """Whether every step is within 10 % of the mean one, which a filter can bear."""
     mean = 1.0 / recording.rate
     return bool(np.abs(np.diff(recording.time) - mean).max() <= _EVEN * mean)
+
+
+def _difference_weights(time: Array) -> Array:
+    """Return the weights (T-6, 7), each of length 1, of the divided differences of sixth order."""
+    window = sliding_window_view(time, _DIFFERENCED)
+    apart = window[:, :, None] - window[:, None, :] + np.eye(_DIFFERENCED)
+    weights = 1.0 / np.prod(apart / np.diff(time).mean(), axis=2)
+    return np.asarray(weights / np.linalg.norm(weights, axis=1, keepdims=True))
+
+
+def _deviation(weights: Array, values: Array) -> float:
+    """Return the standard deviation of the noise in values (T, d), d of them free in three directions."""
+    left = np.einsum("kj,kdj->kd", weights, sliding_window_view(values, _DIFFERENCED, axis=0))
+    return float(np.sqrt(np.sum(left**2) / (3 * len(left))))
 
 
 def _check_even(recording: Recording) -> None:

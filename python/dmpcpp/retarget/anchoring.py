@@ -97,7 +97,7 @@ def anchor(
         at if at.ndim == 1 else at[:3, 3], yaw=yaw, scale=scale, up_axis=recording.up_axis or "z", centre=centre
     )
     if at.ndim == 1:
-        return placement if tool_rotation is None else replace(placement, tool_rotation=tool_rotation)
+        return placement if tool_rotation is None else replace(placement, tool_rotation=np.asarray(tool_rotation))
     if sample is None or tool_rotation is not None:
         raise InvalidArgument("at: a pose, expected a point (3,): the orientation is not that of a start or goal.")
     return replace(placement, tool_rotation=(placement.rotation @ recording.rotation[sample]).T @ at[:3, :3])
