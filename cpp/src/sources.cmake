@@ -1,5 +1,6 @@
 # The sources of each library; paths relative to this folder.
 set(DMP_core_SOURCES
+  align.cpp
   average.cpp
   basis.cpp
   batch.cpp

@@ -149,6 +149,21 @@ void bind_demonstration(py::module_& m) {
           "The same motion on the smoothing spline: the noise is found in the data (generalised "
           "cross-validation) and taken "
           "out; see assess().")
+      .def(
+          "noise",
+          [](const PoseDemonstration& d) {
+            Smoothing position, orientation;
+            {
+              const py::gil_scoped_release release;
+              d.smoothed(&position, &orientation);
+            }
+            Eigen::VectorXd noise(6);
+            noise << position.noise, Eigen::Vector3d::Constant(orientation.noise[0]);
+            return from_vector(noise);
+          },
+          "(6,) standard deviation of the noise found in the data by generalised cross-validation: of "
+          "positions "
+          "[m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples")
       .def("__len__", &PoseDemonstration::size);
 }
 

@@ -19,6 +19,7 @@ _MODULES = frozenset(
         "errors",
         "export",
         "imitation",
+        "learning",
         "metrics",
         "motion",
         "plot",

@@ -9,7 +9,6 @@ Every stage is a value that can be looked at on its own; each step here is one c
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -20,9 +19,9 @@ from numpy.typing import NDArray
 from dmpcpp import arms, metrics, motion, retarget, simulation
 from dmpcpp._core import (
     Arm,
+    Derivatives,
     InverseKinematics,
     JointTrajectory,
-    PoseDemonstration,
     PoseDmp,
     PoseTrajectory,
     duration_factor,
@@ -30,7 +29,9 @@ from dmpcpp._core import (
 )
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.imitation_files import write
+from dmpcpp.learning import learn, reproduction, reproduction_checks
 from dmpcpp.metrics import StageErrors
+from dmpcpp.motion import Noise
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement
 from dmpcpp.simulation import Check, ExecutionLog, Simulator
@@ -44,10 +45,6 @@ Engine = Callable[..., Simulator]
 
 STAGES = ("place", "learn", "solve", "execute")
 
-_KERNELS = (50, 100, 200, 400, 800)  # tried in this order until the motion is reproduced
-_GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, math.radians(0.1)  # m, rad RMSE; below that more kernels are no use
-_KERNELS_PER_SAMPLE = 4  # more than that would learn the spline between the samples, not the motion
-_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE; what a reproduction must reach
 _SAMPLES_PER_KERNEL = 10
 _RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
 
@@ -72,6 +69,8 @@ class Imitation:
     stages : dict of str to StageErrors
         "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
     checks : tuple of Check
+    noise : Noise
+        What was found in the recording as it stands in the robot's base frame.
     second_log : ExecutionLog or None
         The same joints in the second engine, where both were asked for.
     """
@@ -85,6 +84,7 @@ class Imitation:
     log: ExecutionLog
     stages: dict[str, StageErrors]
     checks: tuple[Check, ...]
+    noise: Noise
     second_log: ExecutionLog | None = None
 
     @property
@@ -104,6 +104,7 @@ class Imitation:
                 "body": self.recording.body,
                 "samples": len(self.recording),
                 "duration": self.recording.duration,
+                "noise": {"position": self.noise.position, "angle": self.noise.angle},
                 "history": list(self.recording.history),
             },
             "basis_count": self.model.options.basis_count,
@@ -122,6 +123,8 @@ def imitate(
     *,
     seed: int = 0,
     place: bool = True,
+    scale: tuple[float, float] = (0.25, 1.0),
+    smooth: bool = True,
     basis_count: int | None = None,
     simulator: str = "bullet",
     progress: Progress | None = None,
@@ -137,6 +140,10 @@ def imitate(
     place : bool
         Search a placement of the motion in the arm's workspace; if False the recorded poses are taken as
         poses of the arm's tip in its base frame.
+    scale : (float, float)
+        Smallest and largest scale of positions that a placement may have.
+    smooth : bool
+        Whether noise found in the recording may be smoothed out in learning; the recording's history tells.
     basis_count : int, optional
         Kernels of the model; by default as many as the motion needs.
     simulator : {"bullet", "mujoco", "both"}
@@ -156,11 +163,13 @@ def imitate(
     engines = _engines(simulator)
     tell("place", 0.0)
     recording = motion.continuous(recording)
-    placement = retarget.place(recording, arm, seed, accept=_clear_of_itself(arm, engines[0])) if place else None
+    clear = _clear_of_itself(arm, engines[0])
+    placement = retarget.place(recording, arm, seed, scale=scale, accept=clear) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
-    demonstration = motion.demonstration(placed)
-    model = learn(demonstration, basis_count)
+    demonstration, noise = motion.demonstration(placed), motion.noise(placed)
+    model = learn(demonstration, basis_count, noise=noise, smooth=smooth)
+    placed = _noted(placed, model, noise)
     tell("solve", 0.0)
     plan, joints, slowdown = _solve(model, arm, placement.start if placement else None, engines[0])
     tell("execute", 0.0)
@@ -168,38 +177,14 @@ def imitate(
     logs = _execute(arm, joints, engines, lambda done: tell("execute", done))
     log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
-        "demonstration_to_dmp": _reproduction(model, demonstration),
+        "demonstration_to_dmp": reproduction(model, demonstration),
         "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
         "ik_to_executed": log.errors,
     }
-    checks = (*_reproduction_checks(stages["demonstration_to_dmp"]), *path_checks, *log.verdict.checks)
+    checks = (*reproduction_checks(stages["demonstration_to_dmp"], noise), *path_checks, *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
-    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, second)
-
-
-def learn(demonstration: PoseDemonstration, basis_count: int | None = None) -> PoseDmp:
-    """Learn a demonstration with as many kernels as it needs to be reproduced to 0.2 mm and 0.1 deg RMSE.
-
-    Where even the most kernels do not reach that, the noise found in the data is smoothed out; the model that
-    came closest is returned. `basis_count` sets the number instead.
-    """
-    if basis_count is not None:
-        return PoseDmp.fit(demonstration, basis_count=basis_count)
-    best: tuple[float, PoseDmp] | None = None
-    for derivatives in ("interpolate", "smooth"):  # noise is learned with the motion unless it is taken out
-        for count in _KERNELS:
-            if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
-                break
-            model = PoseDmp.fit(demonstration, basis_count=count, derivatives=derivatives)
-            errors = _reproduction(model, demonstration)
-            miss = max(errors.position_rmse / _GOOD_POSITION, errors.angle_rmse / _GOOD_ANGLE)
-            if best is None or miss < best[0]:
-                best = miss, model
-            if miss <= 1.0:
-                return model
-    assert best is not None
-    return best[1]
+    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, noise, second)
 
 
 def _engines(simulator: str) -> tuple[Engine, ...]:
@@ -222,6 +207,12 @@ def _execute(
         )
 
     return [run(k) for k in range(len(engines))]
+
+
+def _noted(recording: Recording, model: PoseDmp, noise: Noise) -> Recording:
+    if model.options.derivatives != Derivatives.smooth:
+        return recording
+    return recording.with_(f"learned with its noise smoothed out: {noise.describe()} found, once placed")
 
 
 def _clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
@@ -255,26 +246,3 @@ def _solve(
         slowdown *= torque
     plan = model.rollout(duration=slowdown * model.duration, dt=slowdown * dt)
     return plan, joints, slowdown
-
-
-def _reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
-    return metrics.compare(demonstration.pose, model.rollout_at(demonstration.time).pose)
-
-
-def _reproduction_checks(errors: StageErrors) -> tuple[Check, ...]:
-    return (
-        Check(
-            "reproduction_position_rmse",
-            errors.position_rmse <= _LIMIT_POSITION,
-            errors.position_rmse,
-            _LIMIT_POSITION,
-            "m",
-        ),
-        Check(
-            "reproduction_angle_rmse",
-            errors.angle_rmse <= _LIMIT_ANGLE,
-            errors.angle_rmse,
-            _LIMIT_ANGLE,
-            "rad",
-        ),
-    )

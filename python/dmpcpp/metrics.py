@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import trapezoid
 
+from dmpcpp import _core
 from dmpcpp.errors import InvalidArgument
 
 Array = NDArray[np.float64]
@@ -157,21 +158,7 @@ def frechet(a: ArrayLike, b: ArrayLike) -> float:
     The shortest leash that lets a walker on each path reach the end, both going forward only from sample to
     sample. Eiter and Mannila, "Computing discrete Frechet distance", TU Wien CD-TR 94/64, 1994. Time T * S.
     """
-    p, q = _series("a", a), _series("b", b)
-    if p.shape[1] != q.shape[1]:
-        raise InvalidArgument(f"b: {q.shape[1]} columns, expected {p.shape[1]} as in a.")
-    leash = np.linalg.norm(p[:, None] - q[None], axis=2)
-    # The best leash up to (i, j) needs those at (i-1, j), (i, j-1) and (i-1, j-1): go by anti-diagonals.
-    count, width = leash.shape
-    before_last, last = np.full(count + 1, np.inf), np.full(count + 1, np.inf)
-    before_last[0] = -np.inf  # nothing precedes the first pair
-    for diagonal in range(count + width - 1):
-        i = np.arange(max(0, diagonal - width + 1), min(count, diagonal + 1))
-        ways = np.minimum(np.minimum(last[i], last[i + 1]), before_last[i])
-        here = np.full(count + 1, np.inf)
-        here[i + 1] = np.maximum(leash[i, diagonal - i], ways)
-        before_last, last = last, here
-    return float(last[count])
+    return _core.frechet(_series("a", a), _series("b", b))
 
 
 def dtw(a: ArrayLike, b: ArrayLike) -> float:

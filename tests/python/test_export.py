@@ -59,7 +59,7 @@ def test_joint_names_with_commas_and_quotes_survive(tmp_path):
 @pytest.mark.parametrize(
     ("what", "index", "value", "message"),
     [
-        ("position", (3, 2), np.nan, r"position\[3, 2\]: nan, expected a finite number"),
+        ("position", (3, 2), np.nan, r"position\[3, 2\]: nan of joint 'joint_2', expected a finite number"),
         ("velocity", (0, 6), np.inf, r"velocity\[0, 6\]: inf"),
         ("acceleration", (20, 0), -np.inf, r"acceleration\[20, 0\]: -inf"),
         ("time", 5, 0.0, r"time\[5\]: .* strictly increasing"),

@@ -4,23 +4,9 @@ import numpy as np
 import pytest
 from dmpcpp import motion, recordings
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings import Recording
 from scipy.spatial.transform import Rotation
 
-
-def screw(rate=100.0, duration=2.0, spin=1.5) -> Recording:
-    """A body that circles while it turns about its own x axis at a constant rate."""
-    time = np.arange(int(duration * rate) + 1) / rate
-    return Recording(
-        time=time,
-        position=np.column_stack([np.sin(2 * time), np.cos(2 * time), 0.1 * time]),
-        rotation=Rotation.from_rotvec(np.outer(spin * time, [1.0, 0.0, 0.0])).as_matrix(),
-        body="hand",
-    )
-
-
-def angle_between(a, b) -> float:
-    return float((Rotation.from_matrix(a).inv() * Rotation.from_matrix(b)).magnitude().max())
+from tests.python.motions import angle_between, screw
 
 
 def test_poses_are_homogeneous_matrices_of_rotation_and_position():

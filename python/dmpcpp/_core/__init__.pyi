@@ -186,6 +186,10 @@ class PoseDemonstration:
         """
     def __len__(self) -> int:
         ...
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) standard deviation of the noise found in the data by generalised cross-validation: of positions [m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples
+        """
     def smoothed(self) -> PoseDemonstration:
         """
         The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
@@ -912,6 +916,22 @@ class PoseRun:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
         """
+class Alignment:
+    """
+    Which samples of two motions belong together.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def distance(self) -> float:
+        """
+        sum over the path of the distances of its pairs; divide by len(path) for the mean
+        """
+    @property
+    def path(self) -> numpy.typing.NDArray[numpy.int64]:
+        """
+        (K, 2) indices into the first and the second, from the first of both to the last of both; each row goes on by one sample in one motion or in both
+        """
 class FitReport:
     """
     How a model reproduces demonstrations. Columns: dimensions of a position; components of the rotation vector between the orientations; for poses three of each.
@@ -1598,6 +1618,10 @@ def average(models: collections.abc.Sequence[PoseDmp]) -> PoseDmp:
 def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
     """
     The smallest factor on the duration with which the joints' spline stays within the limits (n,) and (n,).
+    """
+def frechet(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+    """
+    Discrete Frechet distance of paths (T, d) and (S, d), in their unit: the shortest leash that lets a walker on each reach the end, both going forward only, from sample to sample (Eiter and Mannila 1994).
     """
 def from_json(text: str) -> typing.Any:
     """

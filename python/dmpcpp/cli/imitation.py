@@ -13,6 +13,7 @@ import click
 
 from dmpcpp.cli.group import FAILED, refuse_file
 from dmpcpp.cli.options import arm_options
+from dmpcpp.cli.preparation import preparation_options, scale_range, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
 from dmpcpp.cli.tables import checks_table
 
@@ -76,17 +77,16 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @recording_options
-@click.option("--start", type=float, default=0.0, metavar="S", help="Use the motion from here [s].")
-@click.option("--end", type=float, metavar="S", help="Use the motion up to here [s].")
-@click.option("--low-pass", type=float, metavar="HZ", help="Remove what is faster (zero-phase Butterworth).")
+@preparation_options
+@click.option(
+    "--scale", metavar="S|MIN:MAX", help="Scale of positions in the arm's workspace, or its range; 0.25:1 unless given."
+)
 @click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame.")
 @arm_options
 @_run_options("dmpcpp-imitation")
 def imitate(
     file: Path,
-    start: float,
-    end: float | None,
-    low_pass: float | None,
+    scale: str | None,
     no_place: bool,
     arm: str,
     base: str | None,
@@ -99,13 +99,11 @@ def imitate(
     """
     from dmpcpp import arms, motion, recordings
 
+    preparation, smooth = taken_preparation(options)
     run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "as_json")}
     recording = recordings.load(file, **taken_recording(options))
-    if start or end is not None:
-        recording = motion.crop(recording, start, end)
-    if low_pass is not None:
-        recording = motion.low_pass(recording, low_pass)
-    _carry_out(recording, arms.load(arm, base, tip), place=not no_place, **run)
+    recording = motion.prepare(recording, preparation)
+    _carry_out(recording, arms.load(arm, base, tip), place=not no_place, scale=scale_range(scale), smooth=smooth, **run)
 
 
 def _carry_out(
@@ -117,14 +115,14 @@ def _carry_out(
     basis_count: int | None,
     simulator: str,
     as_json: bool,
-    place: bool = True,
+    **how: Any,
 ) -> None:
     from dmpcpp import imitation
 
     refuse_file(out)
     with _progress(as_json) as progress:
         run = imitation.imitate(
-            recording, arm, seed=seed, place=place, basis_count=basis_count, simulator=simulator, progress=progress
+            recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
         )
     imitation.write(run, out)
     if as_json:
@@ -183,7 +181,7 @@ def _print(run: Imitation, out: Path) -> None:
 _ADVICE = {
     "self_collision": "The arm touches itself: move the path away from its base, or let it be placed.",
     "ik_position_residual": "The path leaves what the arm can reach: let it be placed, or crop it.",
-    "reproduction_position_rmse": "The recording is noisy or fast for its rate: --low-pass, --start and --end help.",
+    "reproduction_position_rmse": "The recording is noisy or fast for its rate: --smooth, --low-pass or --end help.",
 }
 
 

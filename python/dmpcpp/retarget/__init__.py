@@ -6,7 +6,8 @@
 >>> placed = placement.apply_to(dance)                     # doctest: +SKIP
 """
 
+from dmpcpp.retarget.anchoring import Reach, anchor, anchor_within_reach, reach
 from dmpcpp.retarget.placement import Placement
 from dmpcpp.retarget.search import place
 
-__all__ = ["Placement", "place"]
+__all__ = ["Placement", "Reach", "anchor", "anchor_within_reach", "place", "reach"]

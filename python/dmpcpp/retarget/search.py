@@ -129,6 +129,7 @@ class _Search:
     def __init__(
         self, recording: Recording, arm: Arm, floor: float, accept: Callable[[JointTrajectory], bool] | None
     ) -> None:
+        self.recorded = recording.time
         # A fast hand moves further between two samples than joints can be followed with certainty.
         recording = motion.refine(recording, _STEP_DISTANCE, _STEP_ANGLE)
         self.time = recording.time
@@ -144,6 +145,7 @@ class _Search:
         self.quick_solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
         self.closest: Placement | None = None  # by a look at its positions
         self.most_carried = 0.0
+        self.first_miss = ""  # of the placement that carries most
 
     def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the largest candidates of which every coarse pose can be solved, the largest first."""
@@ -186,7 +188,7 @@ class _Search:
             return "what the joints could follow was not accepted"
         if self.closest is not None:
             self._start(self.closest)
-        return f"the best one carries {100 * self.most_carried:.0f} % of it"
+        return f"the best one carries {100 * self.most_carried:.0f} % of it{self.first_miss}"
 
     def _candidates(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> Iterator[Placement]:
         """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
@@ -220,8 +222,23 @@ class _Search:
     def _start(self, placement: Placement) -> Array | None:
         """Search joints at the first pose from which the whole path can be followed."""
         joints = self.solver.follow(placement.apply(self.poses), times=self.time, **_EFFORT)
-        self.most_carried = max(self.most_carried, joints.report.solved / len(self.time))
+        share = joints.report.solved / len(self.time)
+        if share > self.most_carried:
+            self.most_carried = share
+            self.first_miss = self._first_miss(joints)
         return joints.position[0] if joints.report.complete else None
+
+    def _first_miss(self, joints: JointTrajectory) -> str:
+        """Return where and by how much the first pose is missed, for an error."""
+        report = joints.report
+        if report.complete:
+            return ""
+        k = report.missed[0][0]
+        frame = int(np.searchsorted(self.recorded, self.time[k], side="right")) - 1
+        return (
+            f" and first misses the pose at frame {frame} ({self.time[k]:.4g} s), by "
+            f"{1e3 * report.position_error[k]:.3g} mm and {np.degrees(report.angle_error[k]):.3g} deg"
+        )
 
     def _carry(self, placement: Placement, start: Array, better_than: float = 0.0) -> _Carried | None:
         """Follow the path from `start`; None unless it is carried, worth more than that, and accepted."""

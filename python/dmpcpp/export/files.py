@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,23 +21,17 @@ from scipy.spatial.transform import Rotation
 
 from dmpcpp.atomic import replacing, write_text
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.export.checks import JointMotion, JointSamples, checked, finite, strict_times
 from dmpcpp.recordings.arrays import read_arrays
 from dmpcpp.recordings.recording import Array
 from dmpcpp.recordings.text import number, read_text
 
-__all__ = ["JointSamples", "Plan", "read_joints", "read_plan", "write_joints", "write_plan", "write_tum"]
+if TYPE_CHECKING:
+    from dmpcpp import Arm
+
+__all__ = ["Plan", "read_joints", "read_plan", "write_joints", "write_plan", "write_tum"]
 
 _UNITS = "time s; pose m; twist m/s and rad/s, in the base frame"
-
-
-class JointMotion(Protocol):
-    """What `write_joints` takes: a dmpcpp.JointTrajectory, or anything with its fields."""
-
-    time: Array
-    position: Array
-    velocity: Array
-    acceleration: Array
-    joint_names: Sequence[str]
 
 
 class PoseMotion(Protocol):
@@ -46,17 +40,6 @@ class PoseMotion(Protocol):
     time: Array
     pose: Array
     twist: Array
-
-
-@dataclass(frozen=True, eq=False)
-class JointSamples:
-    """What a joint CSV holds: time (T,) s; position, velocity, acceleration (T, n) in rad and s."""
-
-    time: Array
-    position: Array
-    velocity: Array
-    acceleration: Array
-    joint_names: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +53,7 @@ class Plan:
     tip: str
 
 
-def write_joints(path: str | PathLike[str], trajectory: JointMotion) -> None:
+def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | None = None) -> None:
     """Write a joint trajectory as CSV; the numbers read back exactly.
 
     Parameters
@@ -78,6 +61,8 @@ def write_joints(path: str | PathLike[str], trajectory: JointMotion) -> None:
     path : path
     trajectory : JointTrajectory
         time (T,), position, velocity and acceleration (T, n), joint_names (n).
+    arm : Arm, optional
+        Whose limits of position and velocity the joints must hold.
 
     Raises
     ------
@@ -87,18 +72,12 @@ def write_joints(path: str | PathLike[str], trajectory: JointMotion) -> None:
     FileError
         The file can not be written; an older one is untouched.
     """
-    names = tuple(trajectory.joint_names)
-    time = _times(trajectory.time)
-    parts = [
-        _finite(what, getattr(trajectory, what), (len(time), len(names)))
-        for what in ("position", "velocity", "acceleration")
-    ]
-    if len(set(names)) != len(names) or not all(names):
-        raise InvalidArgument(f"joint_names: {list(names)}, expected a different name for each joint.")
+    samples = checked(trajectory, arm)
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_header(names))
-    writer.writerows(np.column_stack([time, *parts]).tolist())
+    writer.writerow(_header(samples.joint_names))
+    rows = np.column_stack([samples.time, samples.position, samples.velocity, samples.acceleration])
+    writer.writerows(rows.tolist())
     write_text(path, text.getvalue())
 
 
@@ -124,7 +103,7 @@ def read_joints(path: str | PathLike[str]) -> JointSamples:
         raise InvalidArgument(f"{path.name}: line 1, expected time,<joints>,<joints>_vel,<joints>_acc.")
     values = _numbers(path, rows[1:], header)
     position, velocity, acceleration = np.split(values[:, 1:], 3, axis=1)
-    return JointSamples(_times(values[:, 0]), position, velocity, acceleration, names)
+    return JointSamples(strict_times(values[:, 0]), position, velocity, acceleration, names)
 
 
 def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str = "base", tip: str = "tip") -> None:
@@ -146,9 +125,9 @@ def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str =
     FileError
         The file can not be written; an older one is untouched.
     """
-    time = _times(trajectory.time)
-    pose = _finite("pose", trajectory.pose, (len(time), 4, 4))
-    twist = _finite("twist", trajectory.twist, (len(time), 6))
+    time = strict_times(trajectory.time)
+    pose = finite("pose", trajectory.pose, (len(time), 4, 4))
+    twist = finite("twist", trajectory.twist, (len(time), 6))
     with replacing(path) as beside, beside.open("wb") as file:
         np.savez(file, time=time, pose=pose, twist=twist, units=_UNITS, base=base, tip=tip)
 
@@ -168,9 +147,9 @@ def read_plan(path: str | PathLike[str]) -> Plan:
     missing = [name for name in ("time", "pose", "twist", "base", "tip") if name not in arrays]
     if missing:
         raise InvalidArgument(f"{path.name}: no array {missing[0]!r}; it holds: {', '.join(arrays) or 'none'}.")
-    time = _times(arrays["time"])
-    pose = _finite("pose", arrays["pose"], (len(time), 4, 4))
-    twist = _finite("twist", arrays["twist"], (len(time), 6))
+    time = strict_times(arrays["time"])
+    pose = finite("pose", arrays["pose"], (len(time), 4, 4))
+    twist = finite("twist", arrays["twist"], (len(time), 6))
     return Plan(time, pose, twist, str(arrays["base"]), str(arrays["tip"]))
 
 
@@ -192,8 +171,8 @@ def write_tum(path: str | PathLike[str], time: ArrayLike, pose: ArrayLike) -> No
     FileError
         The file can not be written; an older one is untouched.
     """
-    time = _times(time)
-    pose = _finite("pose", pose, (len(time), 4, 4))
+    time = strict_times(time)
+    pose = finite("pose", pose, (len(time), 4, 4))
     determinant = np.linalg.det(pose[:, :3, :3])
     if (determinant <= 0.0).any():
         k = int(np.argmax(determinant <= 0.0))
@@ -215,29 +194,3 @@ def _numbers(path: Path, rows: list[list[str]], header: list[str]) -> Array:
             raise InvalidArgument(f"{path.name}: line {line}, {len(row)} cells, expected {len(header)}.")
         values.append([number(cell, line, column) for cell, column in zip(row, header, strict=True)])
     return np.array(values).reshape(len(values), len(header))
-
-
-def _times(time: ArrayLike) -> Array:
-    time = _array("time", time)
-    time = _finite("time", time, (time.size,))
-    if time.size == 0 or (np.diff(time) <= 0.0).any():
-        k = int(np.argmax(np.diff(time) <= 0.0)) + 1 if time.size else 0
-        raise InvalidArgument(f"time[{k}]: expected at least one time, and strictly increasing ones.")
-    return time
-
-
-def _finite(name: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
-    array = _array(name, values)
-    if array.shape != shape:
-        raise InvalidArgument(f"{name}: shape {array.shape}, expected {shape}.")
-    if not np.isfinite(array).all():
-        index = np.argwhere(~np.isfinite(array))[0].tolist()
-        raise InvalidArgument(f"{name}{index}: {array[tuple(index)]}, expected a finite number.")
-    return array
-
-
-def _array(name: str, values: ArrayLike) -> Array:
-    try:
-        return np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InvalidArgument(f"{name}: not an array of numbers.") from None

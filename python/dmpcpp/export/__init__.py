@@ -1,0 +1,33 @@
+"""Trajectories out, in the files that robot engineers use, and back in; each written whole or not at all.
+
+- Joint CSV: `time,<joints>,<joints>_vel,<joints>_acc`.
+- Plan: a .npz with `time`, `pose`, `twist`, and the names of units and frames.
+- TUM: `t tx ty tz qx qy qz qw`; read it, or a plan, with `recordings.load`.
+- ROS 2 trajectory_msgs/JointTrajectory, as YAML or as a bag: always with velocities and accelerations.
+- URScript: servoj, one command a period.
+
+All in s, m and rad (m for a sliding joint). Numbers that are not finite are refused with index and joint; so are joints
+outside an arm's limits where the arm is given.
+"""
+
+from dmpcpp.export.checks import JointSamples, check_limits
+from dmpcpp.export.files import Plan, read_joints, read_plan, write_joints, write_plan, write_tum
+from dmpcpp.export.ros2 import read_ros2_bag, read_ros2_yaml, write_ros2_bag, write_ros2_yaml
+from dmpcpp.export.urscript import read_urscript, write_urscript
+
+__all__ = [
+    "JointSamples",
+    "Plan",
+    "check_limits",
+    "read_joints",
+    "read_plan",
+    "read_ros2_bag",
+    "read_ros2_yaml",
+    "read_urscript",
+    "write_joints",
+    "write_plan",
+    "write_ros2_bag",
+    "write_ros2_yaml",
+    "write_tum",
+    "write_urscript",
+]

@@ -1,0 +1,116 @@
+"""As many kernels as a motion needs, its noise taken out, and the promise that the motion is reproduced."""
+
+from __future__ import annotations
+
+import math
+
+from dmpcpp import metrics
+from dmpcpp._core import PoseDemonstration, PoseDmp
+from dmpcpp.metrics import StageErrors
+from dmpcpp.motion import Noise
+from dmpcpp.simulation import Check
+
+__all__ = ["learn", "reproduction", "reproduction_checks"]
+
+_KERNELS = (50, 100, 200, 400, 800)  # tried in this order until the motion is reproduced
+_GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, math.radians(0.1)  # m, rad RMSE; below that more kernels are no use
+_KERNELS_PER_SAMPLE = 4  # more than that would learn the spline between the samples, not the motion
+_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE; what a reproduction must reach
+_MOST_POSITION, _MOST_ANGLE = 8e-3, math.radians(1.5)  # m, rad; what noise can excuse: fast motions look like it
+_LIMIT_NOISE = 3.0  # times the noise per axis; a motion without its noise lies sqrt(3) times it from the samples
+_GOOD_NOISE = 1.8  # likewise, what more kernels can not get below
+
+
+def learn(
+    demonstration: PoseDemonstration,
+    basis_count: int | None = None,
+    *,
+    noise: Noise | None = None,
+    smooth: bool = True,
+) -> PoseDmp:
+    """Learn a demonstration with as many kernels as it needs to be reproduced to 0.2 mm and 0.1 deg RMSE.
+
+    Parameters
+    ----------
+    demonstration : PoseDemonstration
+    basis_count : int, optional
+        The number of kernels instead.
+    noise : Noise, optional
+        What was found in the demonstration (`motion.noise`). Where a model without it would miss 1 mm or 0.5 deg,
+        smoothing it out is tried first, and 1.8 times the noise per axis is close enough.
+    smooth : bool
+        Whether noise may be smoothed out; without it being known, this is tried where even the most kernels do not
+        reproduce the motion. The model's options tell: `derivatives` is "smooth".
+
+    Returns
+    -------
+    PoseDmp
+        The first that is close enough, or the one that came closest.
+    """
+    noise = noise or Noise(0.0, 0.0)
+    noisy = math.sqrt(3.0) * noise.position > _LIMIT_POSITION or math.sqrt(3.0) * noise.angle > _LIMIT_ANGLE
+    noise = _believed(noise) if noisy and smooth else Noise(0.0, 0.0)
+    if basis_count is not None:
+        derivatives = "smooth" if smooth and noisy else "interpolate"
+        return PoseDmp.fit(demonstration, basis_count=basis_count, derivatives=derivatives)
+    ways = ("interpolate",) if not smooth else ("smooth", "interpolate") if noisy else ("interpolate", "smooth")
+    best: tuple[float, PoseDmp] | None = None
+    for derivatives in ways:  # noise is learned with the motion unless it is taken out
+        for count in _KERNELS:
+            if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
+                break
+            model = PoseDmp.fit(demonstration, basis_count=count, derivatives=derivatives)
+            miss = _miss(reproduction(model, demonstration), noise)
+            if best is None or miss < best[0]:
+                best = miss, model
+            if miss <= 1.0:
+                return model
+    assert best is not None
+    return best[1]
+
+
+def reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
+    """Errors of the model's rollout at the samples of the demonstration."""
+    return metrics.compare(demonstration.pose, model.rollout_at(demonstration.time).pose)
+
+
+def reproduction_checks(errors: StageErrors, noise: Noise) -> tuple[Check, ...]:
+    """Hold the reproduction against 1 mm and 0.5 deg RMSE, or three times the noise per axis if that is more, 8 mm
+    and 1.5 deg at most.
+
+    A model that takes the noise out lies away from the samples by the noise: sqrt(3) times that of an axis. The
+    detail of each check is the noise per axis.
+    """
+    believed = _believed(noise)
+    position = max(_LIMIT_POSITION, _LIMIT_NOISE * believed.position)
+    angle = max(_LIMIT_ANGLE, _LIMIT_NOISE * believed.angle)
+    return (
+        Check(
+            "reproduction_position_rmse",
+            errors.position_rmse <= position,
+            errors.position_rmse,
+            position,
+            "m",
+            detail=f"noise {1e3 * noise.position:.2g} mm",
+        ),
+        Check(
+            "reproduction_angle_rmse",
+            errors.angle_rmse <= angle,
+            errors.angle_rmse,
+            angle,
+            "rad",
+            detail=f"noise {math.degrees(noise.angle):.2g} deg",
+        ),
+    )
+
+
+def _believed(noise: Noise) -> Noise:
+    """The noise, no more than 8 mm and 1.5 deg can be laid to."""
+    return Noise(min(noise.position, _MOST_POSITION / _LIMIT_NOISE), min(noise.angle, _MOST_ANGLE / _LIMIT_NOISE))
+
+
+def _miss(errors: StageErrors, noise: Noise) -> float:
+    """How many times further off than close enough."""
+    position = max(_GOOD_POSITION, _GOOD_NOISE * noise.position)
+    angle = max(_GOOD_ANGLE, _GOOD_NOISE * noise.angle)
+    return max(errors.position_rmse / position, errors.angle_rmse / angle)

@@ -1,0 +1,56 @@
+"""Recordings cleaned, cut, compared and averaged: functions that take a Recording and return one that says what was
+done.
+
+>>> from dmpcpp import motion, recordings
+>>> punch = recordings.clip("punch")                              # doctest: +SKIP
+>>> motion.crop(motion.resample(punch, rate=100), 0.2, 1.2).history[-1]   # doctest: +SKIP
+'cropped to 0.2 .. 1.2 s'
+
+Samples that were lost stand as NaN in a Recording; `outliers` makes some more of them, `fill` and `split` take them
+out. Every other step asks for whole recordings.
+"""
+
+from dmpcpp.motion.alignment import aligned, medoid
+from dmpcpp.motion.averaging import Spread, mean, spread
+from dmpcpp.motion.frames import relative_to, relative_to_pose
+from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, split
+from dmpcpp.motion.outliers import outliers
+from dmpcpp.motion.poses import complete, continuous, demonstration, poses, quaternions, turn_angles
+from dmpcpp.motion.preparation import Preparation, prepare
+from dmpcpp.motion.segmentation import cycles, segments, speed
+from dmpcpp.motion.smoothing import Noise, low_pass, noise, smooth
+from dmpcpp.motion.timing import crop, refine, resample
+
+__all__ = [
+    "LONGEST_GAP",
+    "Gap",
+    "Noise",
+    "Preparation",
+    "Spread",
+    "aligned",
+    "complete",
+    "continuous",
+    "crop",
+    "cycles",
+    "demonstration",
+    "fill",
+    "gaps",
+    "low_pass",
+    "mean",
+    "medoid",
+    "noise",
+    "outliers",
+    "poses",
+    "prepare",
+    "quaternions",
+    "refine",
+    "relative_to",
+    "relative_to_pose",
+    "resample",
+    "segments",
+    "smooth",
+    "speed",
+    "split",
+    "spread",
+    "turn_angles",
+]

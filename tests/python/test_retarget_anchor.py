@@ -1,0 +1,83 @@
+"""A motion hung up at its start, its goal or the shoulder; and how much of it an arm then reaches."""
+
+import numpy as np
+import pytest
+from dmpcpp import arms, motion, retarget
+from dmpcpp.errors import InvalidArgument
+from scipy.spatial.transform import Rotation
+
+from tests.python.motions import angle_between, reaches, screw
+
+POSE = np.eye(4)
+POSE[:3, :3] = Rotation.from_rotvec([3.0, 0.2, -0.1]).as_matrix()
+POSE[:3, 3] = [0.4, -0.1, 0.5]
+
+
+@pytest.mark.parametrize(("on", "sample"), [("start", 0), ("goal", -1)])
+@pytest.mark.parametrize("yaw", [0.0, 2.0])
+def test_a_pose_is_met_at_the_anchor_whatever_scale_and_yaw(on, sample, yaw):
+    placed = retarget.anchor(screw(), POSE, on=on, scale=0.4, yaw=yaw).apply_to(screw())
+    np.testing.assert_allclose(placed.position[sample], POSE[:3, 3], atol=1e-12)
+    assert angle_between(placed.rotation[[sample]], POSE[None, :3, :3]) < 1e-7
+    span = np.linalg.norm(placed.position[-1] - placed.position[0])
+    assert span == pytest.approx(0.4 * np.linalg.norm(screw().position[-1] - screw().position[0]))
+
+
+def test_a_shoulder_comes_to_lie_at_the_robots_with_the_ratio_of_the_arms():
+    shoulder, base = np.array([-0.1, 0.2, 0.4]), np.array([0.0, 0.0, 0.333])
+    placement = retarget.anchor(screw(), base, on=shoulder, scale=0.8)
+    placed = placement.apply_to(screw())
+    np.testing.assert_allclose(placed.position - base, 0.8 * (screw().position - shoulder), atol=1e-12)
+    np.testing.assert_allclose(placed.rotation, screw().rotation, atol=1e-12)
+
+
+def test_a_tool_rotation_turns_the_tool_alone():
+    tool = Rotation.from_rotvec([0.0, 1.0, 0.0]).as_matrix()
+    placed = retarget.anchor(screw(), [0.4, 0.0, 0.5], tool_rotation=tool).apply_to(screw())
+    np.testing.assert_allclose(placed.rotation, screw().rotation @ tool, atol=1e-12)
+    np.testing.assert_allclose(placed.position[0], [0.4, 0.0, 0.5], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"at": [0.0, 1.0]}, r"at: shape \(2,\)"),
+        ({"at": POSE, "on": [0.0, 0.0, 0.0]}, "at: a pose, expected a point"),
+        ({"at": POSE, "tool_rotation": np.eye(3)}, "at: a pose, expected a point"),
+        ({"at": POSE, "on": "middle"}, "on: 'middle', expected 'start', 'goal' or a point"),
+        ({"at": [0.0, 0.0, np.nan]}, "position: "),
+        ({"at": POSE, "scale": 0.0}, r"scale: 0\.0"),
+    ],
+)
+def test_anchors_without_sense_are_refused(options, message):
+    at = options.pop("at")
+    with pytest.raises(InvalidArgument, match=message):
+        retarget.anchor(screw(), at, **options)
+
+
+def test_the_share_that_an_arm_reaches_is_stated_and_counted_pose_by_pose():
+    pytest.importorskip("pybullet_data")
+    arm = arms.find("panda")
+    near = retarget.anchor(reaches(1), POSE)
+    assert retarget.reach(near, reaches(1), arm).share == 1.0
+    far = retarget.anchor(reaches(1), POSE, scale=2.0)
+    found = retarget.reach(far, reaches(1), arm)
+    away = np.linalg.norm(far.apply(motion.poses(reaches(1)))[:, :3, 3] - [0.0, 0.0, 0.333], axis=1)
+    assert 0.0 < found.share < 1.0 and found.first_missed <= np.argmax(away > 0.95)
+    assert found.describe() == (
+        f"{found.solved} of {len(reaches(1))} poses ({100 * found.share:.1f} %) within reach and joint limits, "
+        f"the first that is not: {found.first_missed}"
+    )
+
+
+@pytest.mark.parametrize("at", [POSE, POSE[:3, 3]], ids=["pose", "point"])
+def test_the_search_turns_an_anchored_motion_into_reach(at):
+    pytest.importorskip("pybullet_data")
+    arm = arms.find("panda")
+    wide = reaches(1).with_("", position=3.0 * reaches(1).position)  # 0.9 m away from the base, unless turned or scaled
+    found = retarget.anchor_within_reach(wide, arm, at)
+    assert retarget.reach(found, wide, arm).share == 1.0
+    assert f"{len(wide)} of {len(wide)} poses (100.0 %) within reach" in found.describe()
+    np.testing.assert_allclose(found.apply_to(wide).position[0], POSE[:3, 3], atol=1e-12)
+    with pytest.raises(InvalidArgument, match="scale: none"):
+        retarget.anchor_within_reach(wide, arm, at, scale=[])
