@@ -7,7 +7,7 @@
 """
 
 from dmpcpp.generality.motions import NOISE, Change, Noise, noisy, random_change, random_motion
-from dmpcpp.generality.run import kept, run, trials
+from dmpcpp.generality.series import kept, run, trials
 from dmpcpp.generality.table import GOAL, Distribution, Row, rows, summary
 from dmpcpp.generality.trial import Result, Trial, attempt
 

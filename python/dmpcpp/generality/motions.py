@@ -113,7 +113,7 @@ def _sinusoids(random: np.random.Generator, time: Array) -> Array:
 def _turned(turn: Array, span: float) -> Array:
     """Rotation vectors in proportion to `turn`, the two orientations furthest apart `span` [rad] apart."""
     turn = (turn - turn.mean(axis=0)) * span / pdist(turn).max()
-    for _ in range(20):  # the angle between two orientations is not the distance of their vectors, but nearly
+    for _ in range(8):  # the angle between two orientations is not the distance of their vectors, but nearly
         turn = turn * span / _largest_angle(turn)
     return turn
 
