@@ -100,14 +100,12 @@ def carry_out(
     if not 100.0 <= rate <= 1e4:
         raise InvalidArgument(f"rate: {rate}, expected 100 to 10000 Hz.")
     reference = sample(arm, plan.joints, rate, settle=0.0, from_rest=True, consistent=True)
-    bottle = plan.bottle
-    with GraspWorld(arm, 1.0 / rate, gripper, bottle.cylinder, bottle.place) as world:
+    with GraspWorld(arm, 1.0 / rate, gripper, plan.bottle.cylinder, plan.bottle.place) as world:
         run = _Run(world, gripper, arm, len(reference.time))
         run.go(reference, int(np.searchsorted(reference.time, plan.phases["close"])), progress)
-        name = world.name
     records = slice(0, run.records * _RECORD_EVERY, _RECORD_EVERY)
     return GraspLog(
-        simulator=name,
+        simulator=world.name,
         rate=rate,
         steps=run.done,
         planned_steps=len(reference.time),
