@@ -2,7 +2,8 @@
 
 The core (``Dmp``, ``OrientationDmp``, ``PoseDmp`` and their runs, ``so3``, model files) and the kinematics (``Arm``,
 ``InverseKinematics``) are C++; what surrounds them are the modules ``recordings``, ``motion``, ``retarget``,
-``simulation``, ``metrics``, ``export``, ``plot``, ``arms`` and ``imitation``, imported when they are used.
+``simulation``, ``metrics``, ``export``, ``plot``, ``arms``, ``imitation``, ``grasp`` and ``generality``, imported when
+they are used.
 Times are in s, lengths in m, angles in rad; arrays are float64.
 """
 
@@ -18,6 +19,8 @@ _MODULES = frozenset(
         "arms",
         "errors",
         "export",
+        "generality",
+        "grasp",
         "imitation",
         "learning",
         "metrics",

@@ -8,7 +8,10 @@ from dmpcpp.simulation.bullet import Bullet
 from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.execution import execute
 from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
+from dmpcpp.simulation.grasp_world import GraspWorld
+from dmpcpp.simulation.gripper import PANDA_HAND, ParallelGripper
 from dmpcpp.simulation.mujoco import MuJoCo
+from dmpcpp.simulation.objects import Cylinder, Friction
 from dmpcpp.simulation.obstacles import Box
 from dmpcpp.simulation.path_check import PathTolerances, contacts_along, path_checks
 from dmpcpp.simulation.second_opinion import AgreementTolerances, agreement
@@ -23,6 +26,7 @@ __all__ = [
     "ENGINES",
     "AgreementTolerances",
     "Box",
+    "PANDA_HAND",
     "Bullet",
     "Check",
     "Clearance",
@@ -32,6 +36,10 @@ __all__ = [
     "ExecutionLog",
     "MuJoCo",
     "PathTolerances",
+    "Cylinder",
+    "Friction",
+    "GraspWorld",
+    "ParallelGripper",
     "Simulator",
     "Tolerances",
     "Verdict",

@@ -1,0 +1,37 @@
+"""A person's reach, led by its goal to a bottle: grasp it, lift it and hold it up under physics.
+
+>>> from dmpcpp import arms, grasp
+>>> planner = grasp.Planner(grasp.default_reach(), arms.find("panda"))       # doctest: +SKIP
+>>> run = grasp.grasp(planner, grasp.Bottle(x=0.45, y=0.1))                  # doctest: +SKIP
+>>> run.ok, run["rise"].value, run["slip"].value                             # doctest: +SKIP
+
+The reach is learned once as a `PoseDmp`; for every bottle its goal is moved to 12 cm before the bottle, from
+where the hand goes on straight along its own axis. Nothing but friction holds the bottle.
+"""
+
+from dmpcpp.grasp.attempt import CAVEAT, Grasp, grasp
+from dmpcpp.grasp.execution import GraspLog, carry_out
+from dmpcpp.grasp.film import film
+from dmpcpp.grasp.planning import GraspPlan, Planner
+from dmpcpp.grasp.reach import default_reach, longest_reach
+from dmpcpp.grasp.task import Bottle, random_bottle
+from dmpcpp.grasp.timing import PHASES
+from dmpcpp.grasp.verdict import GraspTolerances, judge
+
+__all__ = [
+    "CAVEAT",
+    "PHASES",
+    "Bottle",
+    "Grasp",
+    "GraspLog",
+    "GraspPlan",
+    "GraspTolerances",
+    "Planner",
+    "carry_out",
+    "default_reach",
+    "film",
+    "grasp",
+    "judge",
+    "longest_reach",
+    "random_bottle",
+]
