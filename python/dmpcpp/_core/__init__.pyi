@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'assess', 'average', 'duration_factor', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     pass
 class FileError(OSError):
@@ -497,6 +497,18 @@ class Dmp:
     @typing.overload
     def fit(demonstrations: collections.abc.Sequence[Demonstration], options: DmpOptions | None = None, **kwargs) -> Dmp:
         ...
+    @staticmethod
+    @typing.overload
+    def fit_each(demonstrations: collections.abc.Sequence[Demonstration], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[Dmp]:
+        """
+        One model for each demonstration, the same as fit gives. threads: how many to use, 0 for as many as the machine runs at once. Options as in fit.
+        """
+    @staticmethod
+    @typing.overload
+    def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[Dmp]:
+        """
+        The same for positions (M, T, d) on one time grid, times (T,) s.
+        """
     def __getstate__(self) -> str:
         ...
     def __setstate__(self, arg0: str) -> None:
@@ -516,6 +528,10 @@ class Dmp:
     def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Trajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
+        """
+    def rollout_each(self, goals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> TrajectoryBatch:
+        """
+        One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
     @property
     def dimension(self) -> int:
@@ -640,6 +656,18 @@ class OrientationDmp:
     @typing.overload
     def fit(demonstrations: collections.abc.Sequence[OrientationDemonstration], options: DmpOptions | None = None, **kwargs) -> OrientationDmp:
         ...
+    @staticmethod
+    @typing.overload
+    def fit_each(demonstrations: collections.abc.Sequence[OrientationDemonstration], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[OrientationDmp]:
+        """
+        One model for each demonstration, the same as fit gives. threads: how many to use, 0 for as many as the machine runs at once. Options as in fit.
+        """
+    @staticmethod
+    @typing.overload
+    def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[OrientationDmp]:
+        """
+        The same for rotations (M, T, 3, 3) on one time grid, times (T,) s.
+        """
     def __getstate__(self) -> str:
         ...
     def __setstate__(self, arg0: str) -> None:
@@ -659,6 +687,10 @@ class OrientationDmp:
     def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> OrientationTrajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
+        """
+    def rollout_each(self, goals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> OrientationTrajectoryBatch:
+        """
+        One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
     @property
     def duration(self) -> float:
@@ -780,6 +812,18 @@ class PoseDmp:
     @typing.overload
     def fit(demonstrations: collections.abc.Sequence[PoseDemonstration], options: DmpOptions | None = None, **kwargs) -> PoseDmp:
         ...
+    @staticmethod
+    @typing.overload
+    def fit_each(demonstrations: collections.abc.Sequence[PoseDemonstration], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[PoseDmp]:
+        """
+        One model for each demonstration, the same as fit gives. threads: how many to use, 0 for as many as the machine runs at once. Options as in fit.
+        """
+    @staticmethod
+    @typing.overload
+    def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[PoseDmp]:
+        """
+        The same for poses (M, T, 4, 4) on one time grid, times (T,) s.
+        """
     def __getstate__(self) -> str:
         ...
     def __setstate__(self, arg0: str) -> None:
@@ -799,6 +843,10 @@ class PoseDmp:
     def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseTrajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
+        """
+    def rollout_each(self, goals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> PoseTrajectoryBatch:
+        """
+        One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
     @property
     def duration(self) -> float:
@@ -915,6 +963,84 @@ class PoseRun:
     def twist(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class TrajectoryBatch:
+    """
+    Many motions: what Dmp.rollout_each returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d) per s^2
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d)
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T) s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d) per s
+        """
+class OrientationTrajectoryBatch:
+    """
+    Many motions: what OrientationDmp.rollout_each returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 3) rad/s^2, world frame
+        """
+    @property
+    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 3) rad/s, world frame
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 3, 3) body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T) s
+        """
+class PoseTrajectoryBatch:
+    """
+    Many motions: what PoseDmp.rollout_each returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 6) the twist's rate, m/s^2 and rad/s^2
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 4, 4) [R p; 0 1], body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T) s
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
         """
 class Alignment:
     """
@@ -1585,6 +1711,10 @@ class JointTracker:
         """
         (n,) rad/s or m/s, of the last step.
         """
+def align(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, angle_weight: typing.SupportsFloat | typing.SupportsIndex = 0.2, band: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Alignment:
+    """
+    Dynamic time warping (Sakoe and Chiba 1978, steps of weight 1 each) of rows (T, d) and (S, d) by their Euclidean distance, or of poses (T, 4, 4) and (S, 4, 4) by |pa - pb| + angle_weight * angle(Ra, Rb) [m; angle_weight in m/rad]. `band`: how many samples of b a pair may lie off the straight line from the first pair to the last, widened where no path would fit. Raises InvalidArgument, naming the sample, for numbers that are not finite, no samples, matrices that are no rotations, different columns.
+    """
 @typing.overload
 def assess(model: Dmp, demonstrations: collections.abc.Sequence[Demonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
     """
