@@ -101,7 +101,7 @@ int main() {
   row("fit over kernels (4000 samples)", {25, 50, 100, 200, 400}, [](int n) {
     return [t = times(4000), y = motion(4000, 3), o = kernels(n)] { Dmp::fit(Demonstration(t, y), o); };
   });
-  row("fit over dimensions (1000 samples)", {3, 6, 12, 24, 48},
+  row("fit over dimensions (1000 samples)", {24, 48, 96, 192, 384},
       [](int n) { return [t = times(1000), y = motion(1000, n)] { Dmp::fit(Demonstration(t, y)); }; });
   row("joint fit over demonstrations", {10, 20, 40, 80, 160}, [](int n) {
     return [d = std::vector<Demonstration>(static_cast<std::size_t>(n),
