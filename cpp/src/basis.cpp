@@ -40,6 +40,9 @@ GaussianBasis::GaussianBasis(int count, double alpha_x) : count_(count), alpha_x
 GaussianBasis GaussianBasis::equal_in_time(int count, double alpha_x, double overlap) {
   GaussianBasis basis(count, alpha_x);
   require_positive(overlap, "overlap");
+  if (overlap > kLargestOverlap)
+    throw InvalidArgument("overlap: " + std::to_string(overlap) +
+                          ", expected at most 300: narrower kernels leave gaps between them.");
   basis.overlap_ = overlap;
   // Beside the nearest kernel, at most half a spacing away, the one k further on weighs exp(-overlap (k^2 -
   // k)) or less.
@@ -109,8 +112,8 @@ double GaussianBasis::Window::factor() const noexcept {
 RowMatrix GaussianBasis::activations(const Eigen::VectorXd& s, bool normalised) const {
   require_phases(s);
   RowMatrix table = RowMatrix::Zero(s.size(), count_);
+  std::vector<double> psi(static_cast<std::size_t>(capacity_));
   for (Eigen::Index k = 0; k < s.size(); ++k) {
-    std::vector<double> psi(static_cast<std::size_t>(capacity_));
     const Window window = normalised ? proportional(s[k], psi.data()) : activations(s[k], psi.data());
     table.row(k).segment(window.first, window.count) =
         Eigen::Map<Eigen::RowVectorXd>(psi.data(), window.count);

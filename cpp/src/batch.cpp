@@ -94,7 +94,8 @@ void roll_out_each(const Model& model, const Goals& goals, const VectorXd& durat
       const double duration = durations.size() > 0 ? durations[m] : model.duration();
       try {
         require_duration(duration);
-        take(m, model.rollout(goal, duration, duration / static_cast<double>(samples - 1)));
+        auto motion = model.rollout(goal, duration, duration / static_cast<double>(samples - 1));
+        take(m, std::move(motion));
       } catch (const InvalidArgument& error) {
         throw InvalidArgument(indexed("rollouts", static_cast<long>(m)) + ": " + error.what());
       }
@@ -106,7 +107,9 @@ template <class Motion, class Model, class Goals>
 std::vector<Motion> rolled_out(const Model& model, const Goals& goals, const VectorXd& durations,
                                Index samples, int threads) {
   std::vector<Motion> motions(static_cast<std::size_t>(count_of(goals, durations)));
-  const auto keep = [&](Index m, const Motion& motion) { motions[static_cast<std::size_t>(m)] = motion; };
+  const auto keep = [&](Index m, Motion&& motion) {
+    motions[static_cast<std::size_t>(m)] = std::move(motion);
+  };
   roll_out_each(model, goals, durations, samples, keep, threads);
   return motions;
 }

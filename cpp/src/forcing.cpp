@@ -84,11 +84,12 @@ void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {
         return evaluate_equal_in_time<4>(s, f);
       case 6:
         return evaluate_equal_in_time<6>(s, f);
+      case 8:
+        return evaluate_equal_in_time<8>(s, f);
     }
   }
   const GaussianBasis::Window window = basis_.proportional(s, psi);
-  const double x = std::exp(-basis_.alpha_x_ * s);
-  weighted_mean(psi, window.count, rows_.data() + window.first * rows_.cols(), rows_.cols(), x, f);
+  weighted_mean(psi, window.count, rows_.data() + window.first * rows_.cols(), rows_.cols(), basis_.x(s), f);
 }
 
 RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,8 +31,15 @@ void parallel_for(Index count, int threads, const std::function<void(Index, Inde
     }
   };
   std::vector<std::thread> others;
-  for (Index i = 1; i < parts; ++i) others.emplace_back(part, i);
+  others.reserve(static_cast<std::size_t>(parts));
+  Index started = 1;
+  try {
+    for (; started < parts; ++started) others.emplace_back(part, started);
+  } catch (const std::system_error&) {
+    // No more threads to be had: this one does what is left.
+  }
   part(0);
+  for (Index i = started; i < parts; ++i) part(i);
   for (std::thread& other : others) other.join();
   for (const std::exception_ptr& exception : thrown)
     if (exception) std::rethrow_exception(exception);

@@ -30,9 +30,12 @@ struct PoseMotion {
     position.advance(step, f);
     orientation.advance(step, {f.start + 3, f.middle + 3, f.end + 3});
   }
-  bool publish(double speed, double speed_rate, const double* forcing) noexcept {
-    return position.publish(speed, speed_rate, forcing) &&
-           orientation.publish(speed, speed_rate, forcing + 3);
+  bool look(double speed, double speed_rate, const double* forcing) noexcept {
+    return position.look(speed, speed_rate, forcing) && orientation.look(speed, speed_rate, forcing + 3);
+  }
+  void publish() noexcept {
+    position.publish();
+    orientation.publish();
   }
 };
 

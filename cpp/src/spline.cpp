@@ -58,7 +58,10 @@ Spline::Spline(std::shared_ptr<const detail::Knots> knots, RowMatrix coefficient
 }
 
 Spline Spline::through(const RowMatrix& values) const {
-  if (!grid_ || values.rows() != knots_->count())
+  if (!grid_)
+    throw InvalidArgument(
+        "through: a smoothing spline does not go through its samples; make an interpolating one.");
+  if (values.rows() != knots_->count())
     throw InvalidArgument("values: " + std::to_string(values.rows()) +
                           " rows, expected one for each sample of an interpolating spline.");
   RowMatrix coefficients = values;

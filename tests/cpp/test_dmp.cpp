@@ -404,3 +404,21 @@ TEST_CASE("options and arguments outside their ranges are refused with their nam
       Dmp::fit(std::vector<Demonstration>{demonstration, Demonstration(grid(9, 1.0), RowMatrix::Zero(9, 2))}),
       InvalidArgument);
 }
+
+TEST_CASE("Euler's rule follows a moving goal with its scale, as the exact step does") {
+  DmpOptions options;
+  options.scaling = Scaling::per_axis_relative;
+  options.goal_filter = 25.0;
+  DmpOptions euler = options;
+  euler.integrator = Integrator::semi_implicit_euler;
+  Run exact(Dmp::fit(reach(300, 1.0), options));
+  Run simple(Dmp::fit(reach(300, 1.0), euler));
+  const Eigen::VectorXd goal = 2.0 * exact.goal();
+  for (int i = 0; i < 5000; ++i) {
+    exact.step(1e-4);
+    simple.step(1e-4);
+    if (i == 100) exact.set_goal(goal);
+    if (i == 100) simple.set_goal(goal);
+  }
+  CHECK((exact.position() - simple.position()).norm() < 2e-3);
+}

@@ -93,3 +93,15 @@ TEST_CASE("a run begins at any pose with any twist") {
   for (int i = 0; i < 4000; ++i) run.step(1e-3);
   CHECK((run.pose() - dmp.goal()).norm() < 1e-4);
 }
+
+TEST_CASE("a pose that can not be given out whole is not given out in part") {
+  PoseRun run(PoseDmp::fit(pose(200, 1.0)));
+  run.step(0.1);
+  const Eigen::Matrix4d before = run.pose();
+  Eigen::Matrix4d elsewhere = before;
+  elsewhere(0, 3) += 42.0;
+  Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
+  twist[4] = 1e307;
+  CHECK(run.start_from(elsewhere, twist) == Status::not_finite);
+  CHECK(run.pose() == before);
+}

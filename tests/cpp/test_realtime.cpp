@@ -90,34 +90,80 @@ bool denormal(const Eigen::Ref<const Eigen::MatrixXd>& values) {
 }  // namespace
 
 TEST_CASE("a run that is kept going for ever comes to rest, and nothing decays into denormal numbers") {
-  for (const bool force_after_end : {false, true})
-    for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear}) {
+  for (const Integrator integrator : {Integrator::exact, Integrator::semi_implicit_euler})
+    for (const bool force_after_end : {false, true})
+      for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear})
+        for (const bool to_identity : {false, true}) {
+          DmpOptions options;
+          options.integrator = integrator;
+          options.orientation_form = form;
+          options.force_after_end = force_after_end;
+          options.tempo_filter = 0.05;
+          PoseRun run(PoseDmp::fit(pose(200, 1.0), options));
+          run.step(1e-3);
+          const Eigen::Matrix4d goal = to_identity ? Eigen::Matrix4d::Identity() : run.goal();
+          CHECK(run.set_goal(goal) == Status::running);
+          CHECK(run.set_duration(0.7) == Status::running);
+          bool found = false;
+          for (int i = 0; i < 6000; ++i) {  // 1200 durations
+            run.step(0.14);
+            found = found || denormal(run.pose()) || denormal(run.twist()) || denormal(run.acceleration()) ||
+                    denormal(run.quaternion().coeffs());
+          }
+          CHECK_FALSE(found);
+          CHECK(run.twist().norm() < 1e-12);
+          CHECK((run.pose() - goal).norm() < 1e-12);
+        }
+}
+
+TEST_CASE(
+    "seven joints, the source's kernels and Euler's rule take no memory and leave nothing denormal either") {
+  const Eigen::VectorXd t = grid(200, 1.0);
+  RowMatrix y(200, 7);
+  for (int k = 0; k < 200; ++k)
+    for (int d = 0; d < 7; ++d) y(k, d) = std::sin((1 + d) * t[k]) + d;
+  for (const Kernels kernels : {Kernels::equal_in_time, Kernels::source})
+    for (const Integrator integrator : {Integrator::exact, Integrator::semi_implicit_euler}) {
       DmpOptions options;
-      options.orientation_form = form;
-      options.force_after_end = force_after_end;
-      options.tempo_filter = 0.05;
-      PoseRun run(PoseDmp::fit(pose(200, 1.0), options));
-      run.step(1e-3);
-      Eigen::Matrix4d goal = run.goal();
-      goal(0, 3) += .1;
-      run.set_goal(goal);
-      run.set_duration(0.7);
+      options.kernels = kernels;
+      options.integrator = integrator;
+      options.force_after_end = true;
+      Run run(Dmp::fit(Demonstration(t, y), options));
+      const Eigen::VectorXd goal = Eigen::VectorXd::Zero(7);
       bool found = false;
-      for (int i = 0; i < 300; ++i) {  // 1500 durations
-        run.step(3.5);
-        found = found || denormal(run.pose()) || denormal(run.twist()) || denormal(run.acceleration());
-      }
+      CHECK(allocations_in([&] {
+              run.step(1e-3);
+              run.set_goal(goal);
+              for (int i = 0; i < 8000; ++i) {
+                run.step(0.1);
+                for (int d = 0; d < 7; ++d)
+                  found = found || std::fpclassify(run.position()[d]) == FP_SUBNORMAL ||
+                          std::fpclassify(run.velocity()[d]) == FP_SUBNORMAL ||
+                          std::fpclassify(run.acceleration()[d]) == FP_SUBNORMAL;
+              }
+            }) == 0);
       CHECK_FALSE(found);
-      CHECK(run.twist().norm() < 1e-12);
-      CHECK((run.pose() - goal).norm() < 1e-12);
+      CHECK(run.position().norm() < 1e-12);
     }
+}
+
+TEST_CASE("whoever keeps the address of an output reads the newest") {
+  Run run(Dmp::fit(helix(300, 2.0, .1, .2, 2)));
+  const double* const position = run.position().data();
+  const double* const velocity = run.velocity().data();
+  const double* const acceleration = run.acceleration().data();
+  for (int i = 0; i < 3; ++i) {
+    run.step(1e-3);
+    CHECK(run.position().data() == position);
+    CHECK(run.velocity().data() == velocity);
+    CHECK(run.acceleration().data() == acceleration);
+  }
 }
 
 TEST_CASE("these are the methods that a control loop may call") {
   std::set<std::string> found;
-  for (const char* header :
-       {"dmp.hpp", "joint_tracker.hpp", "mailbox.hpp", "orientation_dmp.hpp", "pose_dmp.hpp"}) {
-    std::ifstream file(std::filesystem::path(DMP_INCLUDE_FOLDER) / "dmp" / header);
+  for (const auto& header : std::filesystem::directory_iterator(DMP_INCLUDE_FOLDER "/dmp")) {
+    std::ifstream file(header.path());
     std::stringstream text;
     text << file.rdbuf();
     const std::string source = text.str();
@@ -127,12 +173,24 @@ TEST_CASE("these are the methods that a control loop may call") {
       found.insert((*it)[1]);
   }
   const std::set<std::string> expected{"acceleration",
+                                       "activations",
+                                       "advance",
                                        "angle_error",
                                        "angular_acceleration",
                                        "angular_velocity",
+                                       "distance",
                                        "duration",
+                                       "evaluate",
+                                       "exp",
+                                       "exp_quaternion",
                                        "goal",
+                                       "hat",
+                                       "increment",
                                        "joints",
+                                       "left_jacobian",
+                                       "left_jacobian_inverse",
+                                       "lifted_log",
+                                       "log",
                                        "pause",
                                        "paused",
                                        "phase",
@@ -140,14 +198,18 @@ TEST_CASE("these are the methods that a control loop may call") {
                                        "position",
                                        "position_error",
                                        "post",
+                                       "proportional",
                                        "quaternion",
                                        "reset",
                                        "resume",
                                        "rotation",
+                                       "s",
                                        "set_duration",
                                        "set_goal",
                                        "set_joints",
                                        "set_tracking_error",
+                                       "speed",
+                                       "speed_rate",
                                        "start_from",
                                        "status",
                                        "step",
@@ -155,6 +217,8 @@ TEST_CASE("these are the methods that a control loop may call") {
                                        "time",
                                        "track",
                                        "twist",
-                                       "velocity"};
+                                       "vee",
+                                       "velocity",
+                                       "x"};
   CHECK(found == expected);
 }

@@ -23,7 +23,7 @@ class DMP_EXPORT GaussianBasis {
     int first;
     int count;
     double exponent;
-    double factor() const noexcept;  ///< exp(exponent), never denormal
+    double factor() const noexcept;  ///< exp(exponent), itself never denormal
   };
 
   /// Throws InvalidArgument unless count >= 1, alpha_x > 0 and overlap > 0. Neighbours cross at exp(-overlap

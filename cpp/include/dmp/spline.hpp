@@ -35,6 +35,7 @@ class DMP_EXPORT Spline {
   static Spline smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report = nullptr);
 
   /// The spline through other values (T x d) at the same times: what depends on the times alone is shared.
+  /// Throws InvalidArgument for another number of rows, or if this is a smoothing spline.
   Spline through(const RowMatrix& values) const;
 
   Eigen::Index dimension() const noexcept { return coefficients_[0].cols(); }

@@ -61,10 +61,13 @@ RowMatrix ForcingFit::weights(const std::vector<ForcingTarget>& targets) {
 
 RowMatrix ForcingFit::solve(NormalEquations& equations, const std::vector<ForcingTarget>& targets,
                             Index first) const {
+  double largest = 0.0;  // in whose unit the squares of tiny and huge scales stay within what a double holds
+  for (const ForcingTarget& target : targets) largest = std::max(largest, std::abs(target.scale[first]));
+  if (largest == 0.0) largest = 1.0;
   equations.clear();
-  for (const ForcingTarget& target : targets) equations.add(target, first, target.scale[first]);
-  return options_.regression == Regression::lwr ? equations.solve_lwr(options_.passes)
-                                                : equations.solve_ridge(options_.ridge);
+  for (const ForcingTarget& target : targets) equations.add(target, first, target.scale[first] / largest);
+  const bool local = options_.regression == Regression::lwr;
+  return (local ? equations.solve_lwr(options_.passes) : equations.solve_ridge(options_.ridge)) / largest;
 }
 
 }  // namespace dmp::detail

@@ -10,6 +10,8 @@ namespace dmp {
 // exp of less would be denormal, which costs a hundred times more than a normal number.
 inline constexpr double kSmallestExponent = -700.0;
 
+// exp(-o k^2) of the next kernel and exp(2 o r) stay within what a double holds.
+inline constexpr double kLargestOverlap = 300.0;
 // x of less counts as zero, so that nothing it is multiplied with turns denormal.
 inline constexpr double kLeastPhase = -400.0;
 
@@ -26,7 +28,8 @@ struct GaussianBasis::Place {
 
 inline GaussianBasis::Place GaussianBasis::place(double s) const noexcept {
   const double u = s * (count_ - 1);
-  const int middle = static_cast<int>(std::clamp(u + 0.5, 0.0, static_cast<double>(count_ - 1)));
+  // 0 for what is not a number, too: this is called in control loops.
+  const int middle = u > 0.0 ? static_cast<int>(std::fmin(u + 0.5, count_ - 1.0)) : 0;
   const double offset = u - middle;
   const double exponent = std::clamp(2.0 * overlap_ * offset, kSmallestExponent, -kSmallestExponent);
   return {middle, std::min(reach_, middle), std::min(reach_, count_ - 1 - middle), offset,

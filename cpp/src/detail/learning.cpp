@@ -157,6 +157,7 @@ DmpOptions resolved(const DmpOptions& options) {
   require_positive(*result.orientation_beta, "orientation_beta");
   require_positive(result.alpha_x, "alpha_x");
   require_positive(*result.overlap, "overlap");
+  require_at_most(*result.overlap, 300.0, "overlap");
   require_not_negative(result.ridge, "ridge");
   require_not_negative(result.goal_filter, "goal_filter");
   require_not_negative(result.tempo_filter, "tempo_filter");

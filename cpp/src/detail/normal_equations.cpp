@@ -136,7 +136,13 @@ RowMatrix NormalEquations::solve_ridge(double ridge) const {
   if (all_.gram.rows() > kMostForRidge)
     throw InvalidArgument("options.basis_count: " + std::to_string(all_.gram.rows()) +
                           " kernels, expected at most 4000 for ridge regression. Use Regression::lwr.");
-  return with_ridge(ridge).selfadjointView<Eigen::Lower>().llt().solve(right_);
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky(with_ridge(ridge));
+  if (cholesky.info() != Eigen::Success)
+    throw InvalidArgument(
+        "options.ridge: too small for these kernels and samples, whose matrix is singular. Raise it (1e-9), "
+        "or "
+        "take fewer kernels.");
+  return cholesky.solve(right_);
 }
 
 double NormalEquations::condition(double ridge) const {

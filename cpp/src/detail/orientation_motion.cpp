@@ -61,7 +61,10 @@ class ExponentialRates {
 };
 
 /// Back to length 1 to first order: the steps leave it by rounding only.
-void renormalise(Quaterniond& q) noexcept { q.coeffs() *= 1.5 - 0.5 * q.squaredNorm(); }
+void renormalise(Quaterniond& q) noexcept {
+  q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
+  q.coeffs() = q.coeffs().unaryExpr(&flushed);  // on the way to the identity
+}
 
 }  // namespace
 
@@ -219,11 +222,12 @@ void OrientationMotion::advance_euler(double step, const double* end) noexcept {
   if (!settled_) goal_ = filtered_goal(step);
   e_ = error(goal_, q_);
   eta_ += step * acceleration(e_, eta_, end);
+  eta_ = eta_.unaryExpr(&flushed);
   q_ = so3::exp_quaternion(step * eta_) * q_;
   e_ = error(goal_, q_);
 }
 
-bool OrientationMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
+bool OrientationMotion::look(double speed, double speed_rate, const double* forcing) noexcept {
   const double* const f = scaled(forcing, 3);
   Vector3d change;
   if (form_ == OrientationForm::log_linear) {
@@ -232,13 +236,15 @@ bool OrientationMotion::publish(double speed, double speed_rate, const double* f
   } else {
     change = this->acceleration(e_, eta_, f);
   }
-  const Vector3d velocity = eta_ * speed;
-  const Vector3d acceleration = change * (speed * speed) + eta_ * speed_rate;
-  if (!(q_.coeffs().allFinite() && velocity.allFinite() && acceleration.allFinite())) return false;
+  next_velocity_ = eta_ * speed;
+  next_acceleration_ = change * (speed * speed) + eta_ * speed_rate;
+  return q_.coeffs().allFinite() && next_velocity_.allFinite() && next_acceleration_.allFinite();
+}
+
+void OrientationMotion::publish() noexcept {
   rotation_ = q_;
-  velocity_ = velocity;
-  acceleration_ = acceleration;
-  return true;
+  velocity_ = next_velocity_;
+  acceleration_ = next_acceleration_;
 }
 
 }  // namespace dmp::detail

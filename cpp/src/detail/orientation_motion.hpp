@@ -26,7 +26,9 @@ class OrientationMotion {
   void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
-  bool publish(double speed, double speed_rate, const double* forcing) noexcept;
+  /// As of PositionMotion.
+  bool look(double speed, double speed_rate, const double* forcing) noexcept;
+  void publish() noexcept;
 
   const Eigen::Quaterniond& rotation() const noexcept { return rotation_; }
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
@@ -69,6 +71,8 @@ class OrientationMotion {
   bool settled_ = true;
   Eigen::Matrix<double, 4, 3, Eigen::RowMajor> scratch_ =
       Eigen::Matrix<double, 4, 3, Eigen::RowMajor>::Zero();
+  Eigen::Vector3d next_velocity_ = Eigen::Vector3d::Zero();  // to be looked at before they are given out
+  Eigen::Vector3d next_acceleration_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation_;  // outputs: the last finite ones
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();

@@ -1,5 +1,7 @@
 #include "detail/position_motion.hpp"
 
+#include "detail/flush.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -100,30 +102,42 @@ void PositionMotion::advance_exactly(double step, const double* start, const dou
     double pull_middle = 0.0;
     if (!settled_) {  // the goal moves: its way is a force on the spring around where it arrives
       const double away = goal_[d] - target_[d];
-      goal_[d] = target_[d] + half_decay * half_decay * away;
       pull_start = stiffness * away * (1.0 - half_decay * half_decay);
       pull_middle = stiffness * away * half_decay * (1.0 - half_decay);
-      farthest = std::fmax(farthest, std::abs(goal_[d] - target_[d]) - 1e-15 * std::abs(target_[d]));
+      farthest = std::fmax(farthest, approach(d, half_decay * half_decay));
     }
     double u = y_[d] - goal_[d];
     spring_.advance(u, z_[d], start[d] + pull_start, middle[d] + pull_middle, end[d]);
     y_[d] = goal_[d] + u;
   }
+  follow_goal(farthest);
+}
+
+void PositionMotion::advance_euler(double step, const double* end) noexcept {
+  const double beta = spring_.stiffness() / spring_.alpha();
+  const double decay = settled_ ? 0.0 : std::exp(-goal_filter_ * step);
+  double farthest = 0.0;
+  for (Index d = 0; d < y_.size(); ++d) {
+    if (!settled_) farthest = std::fmax(farthest, approach(d, decay));
+    z_[d] = flushed(z_[d] + step * (spring_.alpha() * (beta * (goal_[d] - y_[d]) - z_[d]) + end[d]));
+    y_[d] = goal_[d] + flushed(y_[d] + step * z_[d] - goal_[d]);
+  }
+  follow_goal(farthest);
+}
+
+/// Leaves `share` of the goal's way; how far it is yet, beyond rounding.
+double PositionMotion::approach(Index d, double share) noexcept {
+  goal_[d] = target_[d] + share * (goal_[d] - target_[d]);
+  return std::abs(goal_[d] - target_[d]) - 1e-15 * std::abs(target_[d]);
+}
+
+void PositionMotion::follow_goal(double farthest) noexcept {
   if (settled_) return;
   rescale();
   if (farthest < 1e-300) jump_to_goal();
 }
 
-void PositionMotion::advance_euler(double step, const double* end) noexcept {
-  const double beta = spring_.stiffness() / spring_.alpha();
-  goal_ = target_ + std::exp(-goal_filter_ * step) * (goal_ - target_);
-  for (Index d = 0; d < y_.size(); ++d) {
-    z_[d] += step * (spring_.alpha() * (beta * (goal_[d] - y_[d]) - z_[d]) + end[d]);
-    y_[d] += step * z_[d];
-  }
-}
-
-bool PositionMotion::publish(double speed, double speed_rate, const double* forcing) noexcept {
+bool PositionMotion::look(double speed, double speed_rate, const double* forcing) noexcept {
   const double* const force = scaled(forcing, 2);
   const double stiffness = spring_.stiffness();
   const double alpha = spring_.alpha();
@@ -140,11 +154,14 @@ bool PositionMotion::publish(double speed, double speed_rate, const double* forc
       acceleration[d] = a;
     }
   });
-  if (!(sum == 0.0)) return false;
+  return sum == 0.0;
+}
+
+// Copied, not swapped: whoever keeps a pointer to an output reads the newest.
+void PositionMotion::publish() noexcept {
   std::copy_n(y_.data(), y_.size(), position_.data());
-  velocity_.swap(next_velocity_);
-  acceleration_.swap(next_acceleration_);
-  return true;
+  std::copy_n(next_velocity_.data(), y_.size(), velocity_.data());
+  std::copy_n(next_acceleration_.data(), y_.size(), acceleration_.data());
 }
 
 }  // namespace dmp::detail

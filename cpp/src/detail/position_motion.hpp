@@ -32,8 +32,10 @@ class PositionMotion {
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
   /// Velocity and acceleration while the phase goes at `speed` (ds/dt) and speeds up at `speed_rate`;
-  /// `forcing` is the term as it is now.
-  bool publish(double speed, double speed_rate, const double* forcing) noexcept;
+  /// `forcing` is the term as it is now. False if they, or the position, are not finite.
+  bool look(double speed, double speed_rate, const double* forcing) noexcept;
+  /// Makes what was looked at the outputs.
+  void publish() noexcept;
 
   const Eigen::VectorXd& position() const noexcept { return position_; }
   const Eigen::VectorXd& velocity() const noexcept { return velocity_; }
@@ -43,6 +45,8 @@ class PositionMotion {
  private:
   void jump_to_goal() noexcept;
   void rescale() noexcept;
+  double approach(Eigen::Index d, double share) noexcept;
+  void follow_goal(double farthest) noexcept;
   void advance_exactly(double step, const double* start, const double* middle, const double* end) noexcept;
   void advance_euler(double step, const double* end) noexcept;
   /// The forcing term times its scale, in place `node` of the scratch memory.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "detail/flush.hpp"
 
@@ -17,7 +18,8 @@ class SpringDamper {
   double alpha() const noexcept { return alpha_; }
   double stiffness() const noexcept { return stiffness_; }
 
-  /// Prepares a step of size sigma > 0; free when it is the step of the last call.
+  /// Prepares a step of size sigma > 0: some forty operations for a step of a control loop, none when it is
+  /// that of the last call.
   void prepare(double sigma) noexcept;
 
   /// One axis: u and z after the step, from the forcing at its start, middle and end.
@@ -29,8 +31,11 @@ class SpringDamper {
   }
 
  private:
+  using Response = std::array<Eigen::Vector2d, 3>;
+
   void prepare_free_motion(double sigma) noexcept;
-  void prepare_response(double sigma) noexcept;
+  Response short_response(double sigma) noexcept;
+  Response long_response(double sigma) const noexcept;
 
   double alpha_;
   double stiffness_;
