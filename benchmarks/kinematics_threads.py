@@ -1,13 +1,16 @@
 """What a second thread gains, beside the most that the machine gives at that moment.
 
-The clock on the wall tells it, so that whatever else runs on the machine counts too: every measurement is taken many
-times and the quietest kept, and hashing on two threads, which share nothing, says what there was to gain.
+By the clock on the wall whatever else runs on the machine counts too: every measurement is taken many times and the
+quietest kept, and hashing on two threads, which share nothing, says what there was to gain. What the threads themselves
+spend on the processor, and how often they let go of it to wait for each other, does not depend on the neighbours: with
+a processor for each, the pair takes as long as its longer thread.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import resource
 import threading
 import time
 from collections.abc import Callable
@@ -18,7 +21,7 @@ from dmpcpp import Arm, InverseKinematics
 from benchmarks.kinematics_arms import Array, random_joints
 
 _ROUNDS = 100
-_REST = 0.03  # s before each, short beside it: a busy machine gives one that has waited its turn at once
+_REST = 0.03  # s before each: on a busy machine one that has rested gets its turn sooner
 
 
 def threads(name: str, arm: Arm, count: int) -> None:
@@ -42,47 +45,61 @@ def threads(name: str, arm: Arm, count: int) -> None:
         same &= all(np.array_equal(a, b) for a, b in zip(found, serial, strict=True))
         spinning.run()
     print(
-        f"{name:6} two threads: {solving.gain:.2f} times the throughput at {solving.cost:.2f} of the CPU time, serial "
-        f"answers bit for bit: {same}; arithmetic alone: {spinning.gain:.2f} times at {spinning.cost:.2f} "
+        f"{name:6} two threads: {solving.describe()}, serial answers bit for bit: {same}\n"
+        f"{name:6} the machine's own ceiling, arithmetic alone: {spinning.describe()} "
         f"({os.cpu_count()} processors, load {os.getloadavg()[0]:.1f})",
         flush=True,
     )
 
 
 class Pair:
-    """Work for two threads: its quietest runs one after the other and side by side, by the clock on the wall."""
+    """Work for two threads, done in turn and side by side again and again; the quietest of each is kept."""
 
     def __init__(self, work: Callable[[int], None]) -> None:
         """Take work that is called with 0 and with 1, the number of the thread."""
         self._work = work
-        self._alone, self._together = [np.inf, np.inf], [np.inf, np.inf]  # s on the wall, s of CPU
+        self._spent, self._waits = [0.0, 0.0], [0, 0]  # of each thread, the last time
+        self._in_turn, self._together = np.full(2, np.inf), np.full(2, np.inf)  # s by the clock, s of CPU
+        self._waited, self._runs = 0, 0
 
     def run(self) -> None:
         """Measure once more, each way."""
-        _keep_least(self._alone, lambda: [self._work(0), self._work(1)])
-        _keep_least(self._together, self._side_by_side)
+        self._in_turn = np.minimum(self._in_turn, (_seconds(self._do_in_turn), sum(self._spent)))
+        self._together = np.minimum(self._together, (_seconds(self._do_together), max(self._spent)))
+        self._waited += sum(self._waits)
+        self._runs += 1
 
-    def _side_by_side(self) -> None:
-        pair = [threading.Thread(target=self._work, args=(i,)) for i in range(2)]
+    def describe(self) -> str:
+        """Say how many times the throughput, by the clock and by what the threads themselves spent."""
+        by_clock, by_threads = self._in_turn / self._together
+        return (
+            f"{by_clock:.2f} times the throughput by the clock, {by_threads:.2f} by the CPU time of the longer thread, "
+            f"the two waited {self._waited / self._runs:.2f} times a run"
+        )
+
+    def _do_in_turn(self) -> None:
+        for i in range(2):
+            self._do(i)
+
+    def _do_together(self) -> None:
+        pair = [threading.Thread(target=self._do, args=(i,)) for i in range(2)]
         for thread in pair:
             thread.start()
         for thread in pair:
             thread.join()
 
-    @property
-    def gain(self) -> float:
-        """Throughput of two threads over that of one."""
-        return self._alone[0] / self._together[0]
-
-    @property
-    def cost(self) -> float:
-        """CPU time side by side over CPU time one after the other."""
-        return self._together[1] / self._alone[1]
+    def _do(self, i: int) -> None:
+        begin, waits = time.thread_time(), _waits_of_this_thread()
+        self._work(i)
+        self._spent[i], self._waits[i] = time.thread_time() - begin, _waits_of_this_thread() - waits
 
 
-def _keep_least(least: list[float], work: Callable[[], object]) -> None:
+def _waits_of_this_thread() -> int:
+    return resource.getrusage(resource.RUSAGE_THREAD).ru_nvcsw
+
+
+def _seconds(work: Callable[[], None]) -> float:
     time.sleep(_REST)
-    begin, begin_cost = time.perf_counter(), time.process_time()
+    begin = time.perf_counter()
     work()
-    spent = time.perf_counter() - begin, time.process_time() - begin_cost
-    least[:] = map(min, least, spent)
+    return time.perf_counter() - begin
