@@ -6,7 +6,9 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "detail/forcing_scale.hpp"
 #include "detail/text.hpp"
@@ -96,10 +98,12 @@ RowMatrix errors_to_goal(const Rotations& rotations, LogBranch branch) {
   return errors;
 }
 
-/// tau^2 acceleration - alpha (beta error - tau velocity)
-RowMatrix forcing_of(double tau, double alpha, double beta, const RowMatrix& acceleration,
-                     const RowMatrix& error, const RowMatrix& velocity) {
-  return tau * tau * acceleration - alpha * (beta * error - tau * velocity);
+/// tau^2 acceleration - alpha (beta error - tau velocity); `error` may be an expression.
+template <class Error>
+RowMatrix forcing_of(double tau, double alpha, double beta, RowMatrix acceleration, const Error& error,
+                     const RowMatrix& velocity) {
+  acceleration = tau * tau * acceleration - alpha * (beta * error - tau * velocity);
+  return acceleration;
 }
 
 RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatrix& errors, double tau,
@@ -185,8 +189,10 @@ VectorXd fit_times(const VectorXd& time, const DmpOptions& options) {
 }
 
 PositionLesson lesson_of(const Demonstration& given, const DmpOptions& options) {
-  const Demonstration demonstration = options.derivatives == Derivatives::smooth ? given.smoothed() : given;
-  const Trajectory motion = looked_at(demonstration, options);
+  const std::optional<Demonstration> smoothed =
+      options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
+  const Demonstration& demonstration = smoothed ? *smoothed : given;
+  Trajectory motion = looked_at(demonstration, options);
   const double tau = demonstration.duration();
   PositionLesson lesson;
   lesson.start = demonstration.position().row(0);
@@ -194,18 +200,19 @@ PositionLesson lesson_of(const Demonstration& given, const DmpOptions& options) 
   lesson.start_z = tau * motion.velocity.row(0);
   if (options.start == Start::rest) lesson.start_z.setZero();
   lesson.amplitude = range(demonstration.position());
-  const RowMatrix to_goal = lesson.goal.transpose().replicate(motion.position.rows(), 1) - motion.position;
+  const auto to_goal = (-motion.position).rowwise() + lesson.goal.transpose();
   lesson.target = {
       motion.time / tau,
-      forcing_of(tau, options.alpha, *options.beta, motion.acceleration, to_goal, motion.velocity),
+      forcing_of(tau, options.alpha, *options.beta, std::move(motion.acceleration), to_goal, motion.velocity),
       VectorXd::Ones(lesson.start.size())};
   if (demonstration.size() < 3) keep_spring_only(lesson.start_z, lesson.target);
   return lesson;
 }
 
 OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOptions& options) {
-  const OrientationDemonstration demonstration =
-      options.derivatives == Derivatives::smooth ? given.smoothed() : given;
+  const std::optional<OrientationDemonstration> smoothed =
+      options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
+  const OrientationDemonstration& demonstration = smoothed ? *smoothed : given;
   const OrientationTrajectory motion = looked_at(demonstration, options);
   const double tau = demonstration.duration();
   const RowMatrix errors = errors_to_goal(motion.rotation, options.log_branch);
