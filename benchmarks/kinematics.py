@@ -15,7 +15,6 @@ stands in benchmarks.kinematics_causes.
 from __future__ import annotations
 
 import argparse
-import threading
 import time
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -29,6 +28,7 @@ from scipy.interpolate import CubicSpline
 from benchmarks import kinematics_causes as causes
 from benchmarks import kinematics_peers as peers
 from benchmarks.kinematics_arms import TIME, Array, errors, feasible_path, inside, load, met, random_joints, smooth_path
+from benchmarks.kinematics_threads import threads
 
 
 def seconds_of(work: Callable[[], object]) -> float:
@@ -190,40 +190,6 @@ def timing(name: str, arm: Arm, count: int) -> None:
         )
 
 
-def threads(name: str, arm: Arm, count: int) -> None:
-    """Two threads, each with half of the poses, against one with all: by the clock on the wall."""
-    random = np.random.default_rng(4)
-    poses = arm.forward_kinematics(random_joints(arm, random, count))
-    solver, half, same = InverseKinematics(arm), count // 2, True
-    alone, together, cost, cost_together = [], [], [], []
-    middle = solver.middle
-    serial = [solver.solve_many(part, middle).joints for part in (poses[:half], poses[half:])]
-    for _ in range(7):
-        found: list[Array] = [middle, middle]
-
-        def work(i: int, found: list[Array] = found) -> None:
-            found[i] = solver.solve_many((poses[:half], poses[half:])[i], middle).joints
-
-        begin = time.perf_counter()
-        cost.append(seconds_of(lambda work=work: [work(0), work(1)]))
-        alone.append(time.perf_counter() - begin)
-        pair = [threading.Thread(target=work, args=(i,)) for i in range(2)]
-        begin, begin_cost = time.perf_counter(), time.process_time()
-        for thread in pair:
-            thread.start()
-        for thread in pair:
-            thread.join()
-        together.append(time.perf_counter() - begin)
-        cost_together.append(time.process_time() - begin_cost)
-        same &= all(np.array_equal(a, b) for a, b in zip(found, serial, strict=True))
-    gain, spent = min(alone) / min(together), min(cost_together) / min(cost)
-    print(
-        f"{name:6} two threads: {gain:.2f} times the throughput at {spent:.2f} of the CPU time, "
-        f"serial answers bit for bit: {same}",
-        flush=True,
-    )
-
-
 def main() -> None:
     """Run the chosen parts."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -242,7 +208,7 @@ def main() -> None:
             "paths": lambda: [feasible_paths(name, arm, reach, chosen.paths) for reach in (0.35, 0.8)] and None,  # noqa: B023
             "causes": lambda: unreachable(name, arm, chosen.causes),  # noqa: B023
             "timing": lambda: timing(name, arm, 20),  # noqa: B023
-            "threads": lambda: threads(name, arm, 20_000),  # noqa: B023
+            "threads": lambda: threads(name, arm, 2_000),  # noqa: B023
         }
         for part in chosen.parts.split(","):
             runs[part]()

@@ -121,6 +121,7 @@ def _trac_ik(arm: Arm, urdf: str) -> Solver:
     from trac_ik import TracIK
 
     solver = TracIK(arm.base, arm.tip, urdf, timeout=0.005, epsilon=0.5 * TOLERANCE, solver_type="Speed")
+    solver.joint_limits = arm.lower, arm.upper  # it reads those of a joint with a safety_controller as 0 to 0
 
     def solve(pose: Array, seed: Array) -> Array:
         joints = solver.ik(pose[:3, 3], pose[:3, :3], seed)

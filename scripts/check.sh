@@ -43,7 +43,7 @@ check_python-asan() {
     cp build/python-asan/python/bindings/_core*.so build/python-asan/path/dmpcpp/ &&
     LD_PRELOAD="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
       UBSAN_OPTIONS=halt_on_error=1 PYTHONPATH=build/python-asan/path "$python" -m pytest -q \
-      tests/python/test_dmp.py tests/python/test_so3.py tests/python/test_kinematics.py tests/python/test_model_files.py tests/python/test_refusals.py
+      tests/python/test_dmp.py tests/python/test_so3.py tests/python/test_arm.py tests/python/test_inverse_kinematics.py tests/python/test_path_tracking.py tests/python/test_model_files.py tests/python/test_refusals.py
 }
 
 names=("$@")

@@ -157,7 +157,7 @@ std::string PathReport::summary() const {
 }
 
 JointTrajectory JointTrajectory::through(const Eigen::VectorXd& times, const RowMatrix& positions,
-                                         const std::vector<std::string>& joint_names) {
+                                         const std::vector<std::string>& joint_names, SplineEnds ends) {
   if (positions.rows() != times.size() || times.size() == 0)
     throw InvalidArgument("positions: " + std::to_string(positions.rows()) + " rows, expected " +
                           std::to_string(times.size()) + ", one for each time, and at least one.");
@@ -168,7 +168,7 @@ JointTrajectory JointTrajectory::through(const Eigen::VectorXd& times, const Row
   joints.time = times;
   joints.position = positions;
   joints.joint_names = joint_names;
-  detail::differentiate(joints);
+  detail::differentiate(joints, ends);
   if (!joints.velocity.allFinite() || !joints.acceleration.allFinite())
     throw InvalidArgument("positions: so large, or times so close, that the velocities overflow.");
   return joints;

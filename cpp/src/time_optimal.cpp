@@ -68,7 +68,8 @@ class Timing {
     JointTrajectory best;
     double shortest = std::numeric_limits<double>::infinity();
     for (int i = 0; i < corrections; ++i) {
-      const JointTrajectory timed = JointTrajectory::through(times(timing_.fastest(scale)), joints_.position);
+      const JointTrajectory timed =
+          JointTrajectory::through(times(timing_.fastest(scale)), joints_.position, {}, SplineEnds::at_rest);
       const Eigen::VectorXd excess = squared_factors(timed);
       const double factor = std::sqrt(excess.maxCoeff());
       const double duration = factor * (timed.time[timed.time.size() - 1] - timed.time[0]);

@@ -186,16 +186,23 @@ void bind_joint_trajectory(py::module_& m) {
       .def("summary", &PathReport::summary,
            "The worst errors and the runs that were missed, in one sentence.")
       .def("__repr__", [](const PathReport& r) { return "<PathReport: " + r.summary() + ">"; });
+  py::native_enum<SplineEnds>(m, "SplineEnds", "enum.Enum", "How a cubic spline ends.")
+      .value("not_a_knot", SplineEnds::not_a_knot,
+             "As the samples suggest: the first three lie on one cubic.")
+      .value("at_rest", SplineEnds::at_rest, "The velocity at both ends is zero, exactly.")
+      .finalize();
   py::class_<JointTrajectory>(m, "JointTrajectory",
                               "Joints over time, with the derivatives of their C2 cubic spline.")
       .def_static(
           "through",
-          [](const Array& times, const Array& positions, const std::vector<std::string>& names) {
+          [](const Array& times, const Array& positions, const std::vector<std::string>& names,
+             SplineEnds ends) {
             return JointTrajectory::through(to_vector(times, "times"), to_matrix(positions, "positions"),
-                                            names);
+                                            names, ends);
           },
           py::arg("times"), py::arg("positions"), py::arg("joint_names") = std::vector<std::string>{},
-          "The C2 cubic spline (not-a-knot ends) through positions (T, n) at times (T,).")
+          py::arg_v("ends", SplineEnds::not_a_knot, "SplineEnds.not_a_knot"),
+          "The C2 cubic spline through positions (T, n) at times (T,) s, strictly increasing.")
       .def_property_readonly(
           "time", [](const JointTrajectory& j) { return from_vector(j.time); }, "(T,) s.")
       .def_property_readonly(

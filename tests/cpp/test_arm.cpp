@@ -162,6 +162,25 @@ TEST_CASE("Soft limits narrow the range, zero soft limits are ignored with a war
   CHECK(zero.warnings()[0].find("joint1") != std::string::npos);
 }
 
+TEST_CASE("An axis that is not of length one is a direction all the same, with a warning") {
+  const std::string limit = R"(<limit lower="-2" upper="2" velocity="3" effort="50"/>)";
+  const Eigen::Vector3d direction = Eigen::Vector3d(1, 2, 2) / 3.0;
+  const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, 0.7);
+  const Arm turning = Arm::from_urdf(one_joint({"", R"(<axis xyz="1 2 2"/>)", "revolute", limit}));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, direction).toRotationMatrix();
+  CHECK((turning.forward_kinematics(q).topLeftCorner<3, 3>() - turn).norm() < 1e-14);
+  REQUIRE(turning.warnings().size() == 1);
+  CHECK(
+      turning.warnings()[0] ==
+      "joint 'joint1': axis (1 2 2) has length 3, expected 1; kinematics normalise it, a simulator may not.");
+  const Arm sliding = Arm::from_urdf(one_joint({"", R"(<axis xyz="1 2 2"/>)", "prismatic", limit}));
+  CHECK((sliding.forward_kinematics(q).topRightCorner<3, 1>() - 0.7 * direction).norm() < 1e-14);
+  // What four decimals leave of a unit vector is not worth a word.
+  CHECK(Arm::from_urdf(one_joint({"", R"(<axis xyz="0.3333 0.6667 0.6667"/>)", "revolute", limit}))
+            .warnings()
+            .empty());
+}
+
 TEST_CASE("Limits of zero velocity or effort count as not stated, with a warning") {
   const Arm arm = Arm::from_urdf(one_joint({"", R"(<axis xyz="0 0 1"/>)", "revolute",
                                             R"(<limit lower="-2" upper="2" velocity="0" effort="0"/>)"}));
@@ -191,7 +210,9 @@ TEST_CASE("Joints with which no motion can be planned are refused by name") {
       "lower < upper"));
   CHECK(
       refuses_with(one_joint({"", z, "revolute", R"(<limit lower="-1" upper="1" effort="50"/>)"}), "joint1"));
-  CHECK(refuses_with(one_joint({"", R"(<axis xyz="0 0 0"/>)", "revolute", limit}), "axis"));
+  CHECK(refuses_with(one_joint({"", R"(<axis xyz="0 0 0"/>)", "revolute", limit}), "axis (0 0 0) is zero"));
+  CHECK(refuses_with(one_joint({"", R"(<axis xyz="0 1e-9 0"/>)", "revolute", limit}), "is zero"));
+  CHECK(refuses_with(one_joint({"", R"(<axis xyz="0 nan 0"/>)", "revolute", limit}), "joint1"));
   CHECK(refuses_with(one_joint({"", z, "floating", ""}), "floating"));
   CHECK(refuses_with(one_joint({"", z, "planar", ""}), "planar"));
   CHECK(refuses_with(one_joint({"", z, "hinge", limit}), "hinge"));

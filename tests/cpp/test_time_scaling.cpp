@@ -73,6 +73,17 @@ TEST_CASE("Few samples make the polynomial through them") {
   CHECK(parabola.velocity(2, 0) == Approx(6.0));
 }
 
+TEST_CASE("A spline that ends at rest does so exactly; between two samples it is 3 s^2 - 2 s^3") {
+  const JointTrajectory step = JointTrajectory::through(Eigen::Vector2d(0.0, 2.0), Eigen::Vector2d(1.0, 2.0),
+                                                        {}, dmp::SplineEnds::at_rest);
+  CHECK(step.velocity.isZero(0.0));
+  CHECK(step.acceleration(0, 0) == Approx(1.5));  // 6 way / time^2
+  CHECK(step.acceleration(1, 0) == Approx(-1.5));
+  const JointTrajectory still =
+      JointTrajectory::through(one(0.5), dmp::RowMatrix::Ones(1, 2), {}, dmp::SplineEnds::at_rest);
+  CHECK(still.velocity.isZero(0.0));
+}
+
 TEST_CASE("The duration factor is the closed form where speed or acceleration binds") {
   const JointTrajectory joints = cubic();  // |qd| <= 2 at t = 1, |qdd| <= 6 at t = 1
   CHECK(dmp::duration_factor(joints, one(0.5), one(infinity)) == Approx(4.0));

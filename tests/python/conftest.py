@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from dmpcpp import Arm, arms
 
 
 @pytest.fixture(scope="session")
@@ -13,6 +14,23 @@ def recorded() -> Path:
     if not folder or not Path(folder).is_dir():
         pytest.skip("DMPCPP_RECORDINGS does not name a folder of recordings")
     return Path(folder)
+
+
+@pytest.fixture(params=["panda", "iiwa", "xarm6"])
+def arm(request: pytest.FixtureRequest) -> Arm:
+    """Each of the arms that PyBullet ships."""
+    return _known_arm(request.param)
+
+
+@pytest.fixture
+def panda() -> Arm:
+    """The Franka Panda that PyBullet ships."""
+    return _known_arm("panda")
+
+
+def _known_arm(name: str) -> Arm:
+    pytest.importorskip("pybullet_data")
+    return arms.find(name)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

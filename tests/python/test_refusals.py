@@ -41,6 +41,12 @@ REACHED = ARM.forward_kinematics(JOINTS)
 PATH = ARM.forward_kinematics(JOINTS + np.outer(TIME, [0.3, 0.2]))
 TRAJECTORY = dmpcpp.JointTrajectory.through(TIME, JOINTS + np.outer(TIME, [0.3, 0.2]))
 
+
+def tracked(tracker: dmpcpp.JointTracker, pose: Any = PATH[1], dt: Any = 0.1) -> dmpcpp.JointTracker:
+    tracker.track(pose, dt)
+    return tracker
+
+
 Entry = tuple[Callable[..., Any], dict[str, Any]]
 ENTRIES: dict[str, Entry] = {
     "Demonstration.__init__": (dmpcpp.Demonstration, {"times": TIME, "positions": POSITION}),
@@ -83,6 +89,27 @@ ENTRIES: dict[str, Entry] = {
             "angle_tolerance": 1e-5,
         },
     ),
+    "InverseKinematics.branches": (
+        lambda pose, seed, apart: next(dmpcpp.InverseKinematics(ARM).branches(pose, seed, apart=apart, tries=5), None),
+        {"pose": REACHED, "seed": JOINTS, "apart": 0.3},
+    ),
+    "JointTracker.__init__": (
+        lambda start, **options: tracked(dmpcpp.JointTracker(ARM, start, **options)),
+        {"start": JOINTS, "position_tolerance": 1e-6, "angle_tolerance": 1e-6},
+    ),
+    "JointTracker.track": (
+        lambda pose, dt: tracked(dmpcpp.JointTracker(ARM, JOINTS), pose, dt),
+        {"pose": PATH[1], "dt": 0.1},
+    ),
+    "time_optimal": (
+        lambda **limits: dmpcpp.time_optimal(TRAJECTORY, **limits, arm=ARM),
+        {
+            "velocity_limit": np.ones(2),
+            "acceleration_limit": np.ones(2),
+            "effort_limit": np.ones(2),
+            "gravity": np.array([0.0, 0.0, -9.81]),
+        },
+    ),
     "JointTrajectory.through": (
         dmpcpp.JointTrajectory.through,
         {"times": TIME, "positions": np.c_[TIME, TIME**2]},
@@ -92,16 +119,33 @@ ENTRIES: dict[str, Entry] = {
         {"velocity_limit": np.ones(2), "acceleration_limit": np.ones(2)},
     ),
     "stretched": (lambda factor: dmpcpp.stretched(TRAJECTORY, factor), {"factor": 2.0}),
+    "align": (
+        lambda a, b, **options: dmpcpp.align(a, b, **options),
+        {"a": POSES, "b": POSES[:8], "angle_weight": 0.2, "band": 5.0},
+    ),
+    "frechet": (dmpcpp.frechet, {"a": POSITION, "b": POSITION[:8]}),
     "spread": (lambda count: dmpcpp.spread([DEMONSTRATIONS["Dmp"]], count), {"count": 5}),
     "assess": (
         lambda **tolerance: dmpcpp.assess(MODELS["Dmp"], [DEMONSTRATIONS["Dmp"]], **tolerance),
         {"position": 1e-3, "angle": 1e-2},
     ),
 }
+SAMPLES = {"Dmp": POSITION, "OrientationDmp": ROTATION, "PoseDmp": POSES}
 for kind, model in MODELS.items():
     ENTRIES |= {
         f"{kind}.rollout": (model.rollout, {"goal": model.goal, "duration": 1.0, "dt": 0.1}),
         f"{kind}.rollout_at": (model.rollout_at, {"times": TIME, "goal": model.goal, "duration": 1.0}),
+        f"{kind}.rollout_each": (
+            lambda model=model, **motions: model.rollout_each(**motions, samples=5),
+            {"goals": np.stack([model.goal, model.goal]), "durations": np.ones(2)},
+        ),
+        f"{kind}.fit_each": (
+            lambda times, values, kind=kind: [
+                MODELS[kind],  # no demonstrations, no models
+                *getattr(dmpcpp, kind).fit_each(times, values, basis_count=5),
+            ][-1].rollout(dt=0.1),
+            {"times": TIME, "values": np.stack([SAMPLES[kind]] * 2)},
+        ),
         f"{kind}.forcing": (model.forcing, {"phase": TIME}),
         f"{kind}.activations": (model.activations, {"phase": TIME}),
         f"{kind}.fit": (

@@ -20,13 +20,14 @@ def random_motion(seed):
 def test_limits_hold_to_1e_9_between_the_samples_too_by_scipys_spline(seed):
     _, joints = random_motion(seed)
     fast = dmpcpp.time_optimal(joints, SPEED, ACCELERATION)
-    spline = CubicSpline(fast.time, fast.position)
+    spline = CubicSpline(fast.time, fast.position, bc_type="clamped")
     dense = np.sort(np.concatenate([fast.time, np.linspace(fast.time[0], fast.time[-1], 50_000)]))
     assert np.all(np.abs(spline(dense, 1)) <= SPEED * (1 + 1e-9))
     assert np.all(np.abs(spline(fast.time, 2)) <= ACCELERATION * (1 + 1e-7))  # SciPy's own rounding
     assert np.all(np.abs(fast.acceleration) <= ACCELERATION * (1 + 1e-9))
     np.testing.assert_array_equal(fast.position, joints.position)
     np.testing.assert_allclose(fast.velocity, spline(fast.time, 1), atol=1e-8)
+    assert not fast.velocity[[0, -1]].any()
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -71,3 +72,18 @@ def test_limits_that_are_none_are_value_errors():
         dmpcpp.time_optimal(joints, SPEED, ACCELERATION, ACCELERATION)
     with pytest.raises(ValueError, match="gravity"):
         dmpcpp.time_optimal(joints, SPEED, ACCELERATION, gravity=[0.0, 1.0])
+
+
+def test_an_arm_carries_out_what_is_timed_with_its_efforts(panda):
+    pytest.importorskip("pybullet")
+    from dmpcpp import simulation
+
+    _, joints = random_motion(4)
+    middle = 0.5 * (panda.lower + panda.upper)
+    joints = JointTrajectory.through(joints.time, middle + 0.3 * joints.position, panda.joint_names)
+    fast = dmpcpp.time_optimal(
+        joints, 0.95 * panda.velocity_limit, arms.acceleration_limit(panda), 0.8 * panda.effort_limit, arm=panda
+    )
+    log = simulation.execute(panda, fast)
+    assert log.verdict.ok, log.verdict
+    assert log.errors.position_max < 1e-5

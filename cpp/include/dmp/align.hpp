@@ -26,8 +26,8 @@ struct Alignment {
 /// `band`: how many samples of b a pair may lie off the straight line from the first pair to the last; it is
 /// widened to half a sample, and to half the ratio of the lengths, where no path would fit. Without it every
 /// pair is allowed. Time and memory (a byte a pair) grow with T S, or with T times the band.
-/// Throws InvalidArgument, naming the row, for no samples, different columns, numbers that are not finite, or
-/// a negative band.
+/// Throws InvalidArgument, naming the row, for no samples, different columns, numbers that are not finite or
+/// so large that distances overflow, or a negative band.
 DMP_EXPORT Alignment align(const RowMatrix& a, const RowMatrix& b, std::optional<double> band = {});
 
 /// The same for poses, whose distance is |pa - pb| + angle_weight * angle(Ra, Rb). angle_weight: m/rad; 0

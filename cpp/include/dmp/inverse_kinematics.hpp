@@ -41,7 +41,8 @@ struct IkOptions {
   std::uint64_t random_seed = 1;  ///< of the restarts; the same seed gives the same joints to the last bit
 };
 
-/// The joints whose tip is at the pose, or as close to it as the search came.
+/// The joints whose tip is at the pose, or as close to it as the search came. A pose that is missed is an
+/// answer, not an error: ask ok(). (In Python `strict=True` raises IkError, whose `report` this is.)
 struct IkResult {
   Eigen::VectorXd joints;  ///< (n) rad or m, always within the limits
   IkStatus status = IkStatus::invalid_input;
@@ -97,9 +98,10 @@ class DMP_EXPORT InverseKinematics {
   /// Joints that meet the path at a few of its poses are searched and tracked through the path both ways;
   /// what counts is the error of the whole path, then the duration it needs at the velocity limits, then the
   /// distance from the joint limits. An arm with more than six joints moves its null space away from the
-  /// limits. Where no joints meet a pose, the closest ones stand in, and the report says so. Throws
-  /// InvalidArgument for times or poses that are no path
-  /// (`poses[17]: ...`) or options out of range; never because a pose is out of reach.
+  /// limits. Where no joints meet a pose, the closest ones stand in, and the report says so: ask
+  /// report.complete(); report.summary() has the words for an error of your own. Throws InvalidArgument for
+  /// times or poses that are no path (`poses[17]: ...`) or options out of range, never because a pose is out
+  /// of reach.
   JointTrajectory follow(const Eigen::VectorXd& times, const Poses& poses, const FollowOptions& options = {});
 
  private:

@@ -48,13 +48,21 @@ struct DMP_EXPORT PathReport {
   std::string summary() const;
 };
 
+/// How a cubic spline ends, where its samples leave that open (de Boor, A Practical Guide to Splines, ch.
+/// IV).
+enum class SplineEnds {
+  not_a_knot,  ///< as the samples suggest: the first three lie on one cubic, and the last three
+  at_rest      ///< clamped: the velocity at both ends is zero, exactly
+};
+
 /// Joints over time.
 struct DMP_EXPORT JointTrajectory {
-  /// The C2 cubic spline through positions (T x n) at times (T) s, strictly increasing, T >= 1 (not-a-knot
-  /// ends; three samples give a parabola, two a line). Throws InvalidArgument for times or values that are no
-  /// motion.
+  /// The C2 cubic spline through positions (T x n) at times (T) s, strictly increasing, T >= 1 (with
+  /// not-a-knot ends three samples give a parabola, two a line). Throws InvalidArgument for times or values
+  /// that are no motion.
   static JointTrajectory through(const Eigen::VectorXd& times, const RowMatrix& positions,
-                                 const std::vector<std::string>& joint_names = {});
+                                 const std::vector<std::string>& joint_names = {},
+                                 SplineEnds ends = SplineEnds::not_a_knot);
 
   Eigen::VectorXd time;                  ///< (T) s
   RowMatrix position;                    ///< (T x n) rad or m

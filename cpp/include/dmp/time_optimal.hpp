@@ -20,11 +20,11 @@ struct TimingLimits {
 /// the path, instead of `stretched` by what the worst point asks for.
 ///
 /// Reachability analysis on the samples (TOPP-RA: Pham and Pham, IEEE Trans. Robotics 34(3), 2018) gives each
-/// sample its time; the C2 spline through them is measured, the path slowed down where it exceeds a limit,
-/// and what is left is stretched. So velocity and acceleration hold everywhere on the spline that is
-/// returned, to rounding. Positions, and the report's errors with them, stay as they are; a motion of fewer
-/// than three samples, or in which nothing moves, is returned as it came. Throws InvalidArgument for limits
-/// of other sizes or signs, or for effort, which needs an arm.
+/// sample its time; the C2 spline through them, at rest at both ends, is measured, the path slowed down where
+/// it exceeds a limit, and what is left is stretched. So velocity and acceleration hold everywhere on the
+/// spline that is returned, to rounding. Positions, and the report's errors with them, stay as they are; a
+/// motion of fewer than three samples, or in which nothing moves, is returned as it came. Throws
+/// InvalidArgument for limits of other sizes or signs, or for effort, which needs an arm.
 DMP_EXPORT JointTrajectory time_optimal(const JointTrajectory& joints, const TimingLimits& limits);
 
 /// The same with the effort that `arm` needs at each sample, by KDL's inverse dynamics (recursive

@@ -5,8 +5,8 @@
 namespace dmp::detail {
 
 /// Fills in velocity and acceleration from time and position: the derivatives, at the samples, of the cubic
-/// spline through the positions with continuous second derivative and not-a-knot ends (de Boor, A Practical
-/// Guide to Splines, ch. IV). Three samples give a parabola, two a line, one stands still.
-void differentiate(JointTrajectory& joints);
+/// spline through the positions with continuous second derivative (de Boor, A Practical Guide to Splines,
+/// ch. IV). With not-a-knot ends three samples give a parabola, two a line; one stands still.
+void differentiate(JointTrajectory& joints, SplineEnds ends);
 
 }  // namespace dmp::detail

@@ -7,12 +7,14 @@
 #include <limits>
 #include <map>
 
+#include "text.hpp"
 #include "urdf_graph.hpp"
 
 namespace dmp::detail {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double shortest_axis = 1e-6;  // below this a zero was meant, or its direction is rounding
 
 [[noreturn]] void refuse(const urdf::Joint& joint, const std::string& why) {
   throw InvalidArgument("urdf: joint '" + joint.name + "': " + why);
@@ -25,9 +27,19 @@ void check_kind(const urdf::Joint& joint) {
       joint.type == urdf::Joint::UNKNOWN)
     refuse(joint,
            "floating, planar and unknown joints can not stand between base and tip; choose another base.");
+}
+
+// URDF asks for a unit axis and urdfdom takes any. To Bullet the length is a factor on a prismatic joint.
+void check_axis(const urdf::Joint& joint, std::vector<std::string>& warnings) {
   const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
-  if (!axis.allFinite() || std::abs(axis.norm() - 1.0) > 1e-6)
-    refuse(joint, "its axis is zero or not finite; expected a direction such as xyz=\"0 0 1\".");
+  const double length = axis.stableNorm();
+  const std::string stated =
+      "axis (" + number(axis.x()) + " " + number(axis.y()) + " " + number(axis.z()) + ")";
+  if (!(length >= shortest_axis) || !std::isfinite(length))
+    refuse(joint, stated + " is zero or not finite; expected a direction such as xyz=\"0 0 1\".");
+  if (std::abs(length - 1.0) > 1e-3)
+    warnings.push_back("joint '" + joint.name + "': " + stated + " has length " + number(length) +
+                       ", expected 1; kinematics normalise it, a simulator may not.");
 }
 
 struct Range {
@@ -69,7 +81,7 @@ double positive_or_none(double limit, const urdf::Joint& joint, const char* what
 
 // Turns z onto the axis; exact for axes along x, y or z.
 Eigen::Isometry3d z_to(const urdf::Vector3& axis) {
-  const Eigen::Vector3d z = Eigen::Vector3d(axis.x, axis.y, axis.z).normalized();
+  const Eigen::Vector3d z = Eigen::Vector3d(axis.x, axis.y, axis.z).stableNormalized();
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   if (z == Eigen::Vector3d::UnitZ()) return turn;
   Eigen::Index least;
@@ -206,7 +218,10 @@ class JointTable {
 void read_joints(const UrdfPath& path, ChainModel& model) {
   JointTable table(model);
   for (const auto& joint : path)
-    if (moves(*joint)) check_kind(*joint);
+    if (moves(*joint)) {
+      check_kind(*joint);
+      check_axis(*joint, model.warnings);
+    }
   for (const auto& joint : path)
     if (moves(*joint) && !joint->mimic) table.add_free(*joint);
   for (const auto& joint : path)

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     pass
 class FileError(OSError):
@@ -1386,14 +1386,23 @@ class PathReport:
         """
         The largest speed over the velocity limit.
         """
+class SplineEnds(enum.Enum):
+    """
+    How a cubic spline ends.
+    """
+    at_rest: typing.ClassVar[SplineEnds]
+    not_a_knot: typing.ClassVar[SplineEnds]
+    @classmethod
+    def __new__(cls, value):
+        ...
 class JointTrajectory:
     """
     Joints over time, with the derivatives of their C2 cubic spline.
     """
     @staticmethod
-    def through(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], joint_names: collections.abc.Sequence[str] = []) -> JointTrajectory:
+    def through(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], joint_names: collections.abc.Sequence[str] = [], ends: SplineEnds = ...) -> JointTrajectory:
         """
-        The C2 cubic spline (not-a-knot ends) through positions (T, n) at times (T,).
+        The C2 cubic spline through positions (T, n) at times (T,) s, strictly increasing.
         """
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
