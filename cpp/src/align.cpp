@@ -29,9 +29,9 @@ class Band {
   Band(Index rows, Index columns, std::optional<double> width)
       : columns_(columns),
         slope_(static_cast<double>(columns - 1) / static_cast<double>(std::max<Index>(rows - 1, 1))) {
-    // Neighbouring spans must touch, or there is no path.
-    width_ = width ? std::max({*width, 0.5, slope_ / 2}) : static_cast<double>(columns);
-    if (rows == 1) width_ = static_cast<double>(columns);
+    // Neighbouring spans must touch, or there is no path; a band beyond all columns is as wide as they are.
+    const auto all = static_cast<double>(columns);
+    width_ = width && rows > 1 ? std::clamp(*width, std::max(0.5, slope_ / 2), all) : all;
   }
 
   Span at(Index i) const {
@@ -117,6 +117,8 @@ Alignment warp(Index rows, Index columns, std::optional<double> width, const Cos
     cost_row(i, span, cost);
     advance(cost, span, steps.spans[row > 0 ? row - 1 : 0], total, steps.taken.data() + steps.begin[row]);
   }
+  if (!std::isfinite(total[columns]))  // then no path is the shortest
+    throw InvalidArgument("a, b: so far apart that the sum of distances overflows. Check the unit.");
   return {path_to(rows - 1, columns - 1, steps), total[columns]};
 }
 

@@ -40,6 +40,9 @@ GaussianBasis::GaussianBasis(int count, double alpha_x) : count_(count), alpha_x
 GaussianBasis GaussianBasis::equal_in_time(int count, double alpha_x, double overlap) {
   GaussianBasis basis(count, alpha_x);
   require_positive(overlap, "overlap");
+  if (overlap > -kSmallestExponent)  // exp(2 overlap r) with |r| <= 1/2 must be a number
+    throw InvalidArgument("overlap: " + std::to_string(overlap) +
+                          ", expected at most 700: neighbours would not touch.");
   basis.overlap_ = overlap;
   // Beside the nearest kernel, at most half a spacing away, the one k further on weighs exp(-overlap (k^2 -
   // k)) or less.

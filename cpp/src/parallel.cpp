@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,7 +31,14 @@ void parallel_for(Index count, int threads, const std::function<void(Index, Inde
     }
   };
   std::vector<std::thread> others;
-  for (Index i = 1; i < parts; ++i) others.emplace_back(part, i);
+  others.reserve(static_cast<std::size_t>(parts));
+  for (Index i = 1; i < parts; ++i) {
+    try {
+      others.emplace_back(part, i);
+    } catch (const std::system_error&) {  // the machine gives no more threads: this one does it
+      part(i);
+    }
+  }
   part(0);
   for (std::thread& other : others) other.join();
   for (const std::exception_ptr& exception : thrown)
