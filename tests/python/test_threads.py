@@ -25,11 +25,11 @@ PATH = ARM.forward_kinematics(JOINTS)
 TRAJECTORY = dmpcpp.JointTrajectory.through(TIME, JOINTS)
 
 CALLS: dict[str, Callable[[], np.ndarray]] = {
-    "fit": lambda: dmpcpp.PoseDmp.fit(DEMONSTRATION, basis_count=200).weights,
+    "fit": lambda: dmpcpp.PoseDmp.fit([DEMONSTRATION] * 40, basis_count=200).weights,
     "fit_each": lambda: dmpcpp.PoseDmp.fit_each(TIME, np.tile(POSES, (10, 1, 1, 1)))[9].weights,
     "rollout": lambda: MODEL.rollout(duration=20.0, dt=1e-3).pose,
     "rollout_each": lambda: MODEL.rollout_each(durations=np.linspace(1.0, 2.0, 10)).pose,
-    "solve_many": lambda: dmpcpp.InverseKinematics(ARM).solve_many(PATH).joints,
+    "solve_many": lambda: dmpcpp.InverseKinematics(ARM).solve_many(np.tile(PATH, (20, 1, 1))).joints,
     "follow": lambda: dmpcpp.InverseKinematics(ARM).follow(PATH, TIME, thorough=False).position,
     "align": lambda: np.array(dmpcpp.align(POSES, POSES[::2]).path),
 }
