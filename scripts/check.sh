@@ -7,10 +7,24 @@ cd "$root"
 logs=$root/build/checks
 mkdir -p "$logs"
 python=${PYTHON:-$root/.venv/bin/python}
-all=(release package matrix debian asan tsan rtsan valgrind fuzz coverage python-asan wheel)
+all=(lint release package matrix debian asan tsan rtsan valgrind fuzz coverage mutation python-asan wheel)
 
 preset() { cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1"; }
 
+check_lint() {
+  local ruff=${python%/*}/ruff
+  "$ruff" check python tests benchmarks scripts && "$ruff" format --check python tests benchmarks scripts || return 1
+  command -v clang-format >/dev/null || { echo "skipped clang-format: not installed"; return 0; }
+  find cpp python/bindings tests/cpp tests/fuzz examples benchmarks/cpp -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+}
+
+# The movement primitives alone: what continuous integration has the time for.
+check_asan-core() {
+  cmake --preset asan -B build/asan-core -DDMP_KINEMATICS=OFF && cmake --build build/asan-core &&
+    ctest --test-dir build/asan-core --output-on-failure -E '^header_|^package$'
+}
+
+check_mutation() { "$python" scripts/mutation.py; }
 check_release() { preset release; }
 check_package() { cmake --preset release && cmake --build --preset release && tests/package/installed.sh build/release; }
 check_matrix() { tests/package/matrix.sh; }

@@ -106,15 +106,6 @@ Rotations rotations_of(const Poses& poses) {
   return rotations;
 }
 
-Spline::Samples sampled(const Spline& spline, const Eigen::VectorXd& times) {
-  for (Index k = 0; k < times.size(); ++k)
-    if (!std::isfinite(times[k])) throw InvalidArgument(detail::indexed("times", k) + ": not finite.");
-  Spline::Samples samples = spline.sample(times);
-  if (!samples.value.allFinite() || !samples.first.allFinite() || !samples.second.allFinite())
-    throw InvalidArgument("times: so far from the demonstration that the motion overflows.");
-  return samples;
-}
-
 }  // namespace
 
 Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions)
@@ -130,7 +121,7 @@ Demonstration Demonstration::with(const RowMatrix& positions) const {
 }
 
 Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
-  Spline::Samples samples = sampled(spline_, times);
+  Spline::Samples samples = spline_.sample(times);
   return {times, std::move(samples.value), std::move(samples.first), std::move(samples.second)};
 }
 
@@ -193,7 +184,7 @@ OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::Vecto
 }
 
 OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times) const {
-  const Spline::Samples samples = sampled(spline_, times);
+  const Spline::Samples samples = spline_.sample(times);
   OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
   result.rotation.reserve(static_cast<std::size_t>(times.size()));
   for (Index k = 0; k < times.size(); ++k) {

@@ -103,7 +103,11 @@ RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
 RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
                       const DmpOptions& options) {
   const Index dimension = targets.empty() ? 0 : targets.front().value.cols();
-  return detail::ForcingFit(basis, options, dimension).weights(targets);
+  RowMatrix weights = detail::ForcingFit(basis, options, dimension).weights(targets);
+  if (!weights.allFinite())
+    throw InvalidArgument(
+        "targets: phases that lie too close together or values that are too large for a regression.");
+  return weights;
 }
 
 double regression_condition(const DmpOptions& options) {

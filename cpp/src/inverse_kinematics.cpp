@@ -16,7 +16,7 @@ constexpr int descents_for_a_verdict = 8;
 void check(const Arm& arm, const IkOptions& options) {
   detail::check_positive(options.position_tolerance, "options.position_tolerance");
   detail::check_positive(options.angle_tolerance, "options.angle_tolerance");
-  detail::check_positive(options.angle_weight, "options.angle_weight");
+  detail::check_angle_weight(options.angle_weight);
   detail::check_positive(options.iteration_limit, "options.iteration_limit");
   detail::check_positive(options.max_step, "options.max_step");
   detail::check_weight(options.weight);

@@ -17,7 +17,7 @@ void check(const Arm& arm, const TrackOptions& options) {
   detail::check_capacity(arm);
   detail::check_positive(options.position_tolerance, "options.position_tolerance");
   detail::check_positive(options.angle_tolerance, "options.angle_tolerance");
-  detail::check_positive(options.angle_weight, "options.angle_weight");
+  detail::check_angle_weight(options.angle_weight);
   detail::check_weight(options.weight);
   if (!(options.limit_pull >= 0.0) || !std::isfinite(options.limit_pull))
     throw InvalidArgument("options.limit_pull: " + std::to_string(options.limit_pull) +

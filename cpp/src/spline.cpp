@@ -30,14 +30,21 @@ void blend(const std::array<double, 6>& basis, int degree, const double* coeffic
   }
 }
 
+void require_finite(const RowMatrix& values) {
+  for (Index k = 0; k < values.rows(); ++k)
+    if (!values.row(k).allFinite())
+      throw InvalidArgument("values[" + std::to_string(k) + "]: not finite, expected numbers.");
+}
+
 void require(const Eigen::VectorXd& times, const RowMatrix& values) {
   if (times.size() < 2 || times.size() != values.rows())
     throw InvalidArgument("times: " + std::to_string(times.size()) + " for " + std::to_string(values.rows()) +
                           " rows of values, expected one each and at least 2.");
-  for (Index k = 1; k < times.size(); ++k)
-    if (!(times[k] > times[k - 1]))
+  for (Index k = 0; k < times.size(); ++k)
+    if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
       throw InvalidArgument("times[" + std::to_string(k) +
-                            "]: not after the one before, expected increasing times.");
+                            "]: not finite or not after the one before, expected increasing times.");
+  require_finite(values);
 }
 
 }  // namespace
@@ -64,6 +71,7 @@ Spline Spline::through(const RowMatrix& values) const {
   if (values.rows() != knots_->count())
     throw InvalidArgument("values: " + std::to_string(values.rows()) +
                           " rows, expected one for each sample of an interpolating spline.");
+  require_finite(values);
   RowMatrix coefficients = values;
   grid_->solve(coefficients);
   Spline spline(knots_, std::move(coefficients));
@@ -74,6 +82,7 @@ Spline Spline::through(const RowMatrix& values) const {
 Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report) {
   if (report) *report = {Eigen::VectorXd::Zero(values.cols()), Eigen::VectorXd::Zero(values.cols())};
   if (times.size() < 10) return {times, values};
+  require(times, values);
   detail::SmoothingFit fit(times);
   Spline spline(std::make_shared<const detail::Knots>(fit.knots()), fit.solve(values));
   if (report) {
@@ -111,6 +120,8 @@ void Spline::sample(const Eigen::VectorXd& times, const std::array<double*, 3>& 
 }
 
 Spline::Samples Spline::sample(const Eigen::VectorXd& times) const {
+  for (Index k = 0; k < times.size(); ++k)
+    if (!std::isfinite(times[k])) throw InvalidArgument("times[" + std::to_string(k) + "]: not finite.");
   const Index n = times.size();
   const Index dims = dimension();
   Samples samples{RowMatrix(n, dims), RowMatrix(n, dims), RowMatrix(n, dims)};
@@ -126,6 +137,8 @@ Spline::Samples Spline::sample(const Eigen::VectorXd& times) const {
     default:
       sample<0>(times, out);
   }
+  if (!samples.value.allFinite() || !samples.first.allFinite() || !samples.second.allFinite())
+    throw InvalidArgument("times: so far from the samples, or these so large, that the spline overflows.");
   return samples;
 }
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstdlib>
 
-// A sanitizer has a malloc of its own, which must not be replaced: there nothing is counted, and the loops run
-// for the sanitizer to watch.
+// A sanitizer has a malloc of its own, which must not be replaced: there nothing is counted, and the loops
+// run for the sanitizer to watch.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define COUNTS_MALLOC 0
 #elif defined(__has_feature)

@@ -47,12 +47,17 @@ inline OrientationDemonstration rotation(int count, double duration, double end)
   return {t, r};
 }
 
-inline PoseDemonstration pose(int count, double duration) {
-  const Demonstration p = helix(count, duration, .1, .2, 2);
+inline PoseDemonstration pose(int count, double duration, double turns = 2) {
+  const Demonstration p = helix(count, duration, .1, .2, turns);
   const OrientationDemonstration r = rotation(count, duration, 3.0);
   Poses poses;
   for (int k = 0; k < count; ++k) poses.push_back(pose_of(r.rotation()[k], p.position().row(k)));
   return {p.time(), poses};
+}
+
+/// Every axis ends elsewhere than it starts, as every scaling needs it.
+inline PoseDemonstration pose_with_goal_apart(int count, double duration) {
+  return pose(count, duration, 1.3);
 }
 
 /// Spring and damper alone, from y0 to g at rest.

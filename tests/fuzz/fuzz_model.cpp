@@ -1,4 +1,5 @@
-// Any bytes as a model file: an InvalidArgument, or a model that is written and read again to the same text and runs.
+// Any bytes as a model file: an InvalidArgument, or a model that is written and read again to the same text
+// and runs.
 #include <dmp/error.hpp>
 #include <dmp/file.hpp>
 

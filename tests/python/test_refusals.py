@@ -42,9 +42,10 @@ PATH = ARM.forward_kinematics(JOINTS + np.outer(TIME, [0.3, 0.2]))
 TRAJECTORY = dmpcpp.JointTrajectory.through(TIME, JOINTS + np.outer(TIME, [0.3, 0.2]))
 
 
-def tracked(tracker: dmpcpp.JointTracker, pose: Any = PATH[1], dt: Any = 0.1) -> dmpcpp.JointTracker:
+def tracked(pose: Any, dt: Any) -> np.ndarray:
+    tracker = dmpcpp.JointTracker(ARM, JOINTS)
     tracker.track(pose, dt)
-    return tracker
+    return tracker.joints
 
 
 Entry = tuple[Callable[..., Any], dict[str, Any]]
@@ -89,27 +90,6 @@ ENTRIES: dict[str, Entry] = {
             "angle_tolerance": 1e-5,
         },
     ),
-    "InverseKinematics.branches": (
-        lambda pose, seed, apart: next(dmpcpp.InverseKinematics(ARM).branches(pose, seed, apart=apart, tries=5), None),
-        {"pose": REACHED, "seed": JOINTS, "apart": 0.3},
-    ),
-    "JointTracker.__init__": (
-        lambda start, **options: tracked(dmpcpp.JointTracker(ARM, start, **options)),
-        {"start": JOINTS, "position_tolerance": 1e-6, "angle_tolerance": 1e-6},
-    ),
-    "JointTracker.track": (
-        lambda pose, dt: tracked(dmpcpp.JointTracker(ARM, JOINTS), pose, dt),
-        {"pose": PATH[1], "dt": 0.1},
-    ),
-    "time_optimal": (
-        lambda **limits: dmpcpp.time_optimal(TRAJECTORY, **limits, arm=ARM),
-        {
-            "velocity_limit": np.ones(2),
-            "acceleration_limit": np.ones(2),
-            "effort_limit": np.ones(2),
-            "gravity": np.array([0.0, 0.0, -9.81]),
-        },
-    ),
     "JointTrajectory.through": (
         dmpcpp.JointTrajectory.through,
         {"times": TIME, "positions": np.c_[TIME, TIME**2]},
@@ -118,12 +98,36 @@ ENTRIES: dict[str, Entry] = {
         lambda **limits: dmpcpp.duration_factor(TRAJECTORY, **limits),
         {"velocity_limit": np.ones(2), "acceleration_limit": np.ones(2)},
     ),
-    "stretched": (lambda factor: dmpcpp.stretched(TRAJECTORY, factor), {"factor": 2.0}),
-    "align": (
-        lambda a, b, **options: dmpcpp.align(a, b, **options),
-        {"a": POSES, "b": POSES[:8], "angle_weight": 0.2, "band": 5.0},
+    "InverseKinematics.branches": (
+        lambda pose, seed, **options: next(dmpcpp.InverseKinematics(ARM).branches(pose, seed, **options)),
+        {"pose": REACHED, "seed": JOINTS, "apart": 0.3, "tries": 3},
     ),
-    "frechet": (dmpcpp.frechet, {"a": POSITION, "b": POSITION[:8]}),
+    "JointTracker.__init__": (
+        lambda start, **options: dmpcpp.JointTracker(ARM, start, **options),
+        {
+            "start": JOINTS,
+            "position_tolerance": 1e-6,
+            "angle_tolerance": 1e-6,
+            "angle_weight": 0.1,
+            "limit_pull": 1.0,
+        },
+    ),
+    "JointTracker.track": (tracked, {"pose": PATH[1], "dt": 0.01}),
+    "time_optimal": (
+        lambda **limits: dmpcpp.time_optimal(TRAJECTORY, arm=ARM, **limits),
+        {
+            "velocity_limit": np.ones(2),
+            "acceleration_limit": np.ones(2),
+            "effort_limit": np.full(2, 50.0),
+            "gravity": np.array([0.0, 0.0, -9.81]),
+        },
+    ),
+    "align": (
+        lambda a, b, **options: dmpcpp.align(a, b, **options).distance,
+        {"a": POSES, "b": POSES[::2], "angle_weight": 0.2, "band": 3.0},
+    ),
+    "frechet": (dmpcpp.frechet, {"a": POSITION, "b": POSITION[::2]}),
+    "stretched": (lambda factor: dmpcpp.stretched(TRAJECTORY, factor), {"factor": 2.0}),
     "spread": (lambda count: dmpcpp.spread([DEMONSTRATIONS["Dmp"]], count), {"count": 5}),
     "assess": (
         lambda **tolerance: dmpcpp.assess(MODELS["Dmp"], [DEMONSTRATIONS["Dmp"]], **tolerance),
@@ -133,19 +137,19 @@ ENTRIES: dict[str, Entry] = {
 SAMPLES = {"Dmp": POSITION, "OrientationDmp": ROTATION, "PoseDmp": POSES}
 for kind, model in MODELS.items():
     ENTRIES |= {
+        f"{kind}.fit_each": (
+            lambda times, samples, threads, kind=kind: [
+                each.rollout(dt=0.1)
+                for each in getattr(dmpcpp, kind).fit_each(times, samples, threads=threads, basis_count=5)
+            ],
+            {"times": TIME, "samples": np.stack([SAMPLES[kind]] * 2), "threads": 2},
+        ),
+        f"{kind}.rollout_each": (
+            model.rollout_each,
+            {"goals": np.stack([model.goal] * 2), "durations": np.array([1.0, 2.0]), "samples": 5, "threads": 2},
+        ),
         f"{kind}.rollout": (model.rollout, {"goal": model.goal, "duration": 1.0, "dt": 0.1}),
         f"{kind}.rollout_at": (model.rollout_at, {"times": TIME, "goal": model.goal, "duration": 1.0}),
-        f"{kind}.rollout_each": (
-            lambda model=model, **motions: model.rollout_each(**motions, samples=5),
-            {"goals": np.stack([model.goal, model.goal]), "durations": np.ones(2)},
-        ),
-        f"{kind}.fit_each": (
-            lambda times, values, kind=kind: [
-                MODELS[kind],  # no demonstrations, no models
-                *getattr(dmpcpp, kind).fit_each(times, values, basis_count=5),
-            ][-1].rollout(dt=0.1),
-            {"times": TIME, "values": np.stack([SAMPLES[kind]] * 2)},
-        ),
         f"{kind}.forcing": (model.forcing, {"phase": TIME}),
         f"{kind}.activations": (model.activations, {"phase": TIME}),
         f"{kind}.fit": (
@@ -199,8 +203,10 @@ def never(name: str) -> bool:
 
 def finite(answer: Any) -> bool:
     """Return whether all numbers that an answer shows are numbers."""
-    if answer is None or isinstance(answer, (bool, str, list)):
+    if answer is None or isinstance(answer, (bool, str)):
         return True
+    if isinstance(answer, list):
+        return all(finite(each) for each in answer)
     if isinstance(answer, (int, float, np.ndarray)):
         return not np.isnan(answer).any()
     shown = (getattr(answer, name) for name in dir(type(answer)) if isinstance(getattr(type(answer), name), property))

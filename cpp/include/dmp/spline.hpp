@@ -26,7 +26,8 @@ struct Smoothing {
 /// fewer than six samples it is the polynomial through them.
 class DMP_EXPORT Spline {
  public:
-  /// times (T) strictly increasing, values (T x d), T >= 2. Throws InvalidArgument for other sizes or times.
+  /// times (T) strictly increasing, values (T x d), T >= 2. Throws InvalidArgument, naming the sample, for
+  /// other sizes or times, or for numbers that are not finite; so do `smoothing` and `through`.
   Spline(const Eigen::VectorXd& times, const RowMatrix& values);
 
   /// The quintic spline that weighs closeness to the samples against the integral of its squared third
@@ -41,6 +42,7 @@ class DMP_EXPORT Spline {
   Eigen::Index dimension() const noexcept { return coefficients_[0].cols(); }
 
   /// Value, first and second derivative at each time (extrapolated by the end polynomial), each (times x d).
+  /// Throws InvalidArgument for a time that is not finite, or so far away that the polynomial overflows.
   struct Samples {
     RowMatrix value;
     RowMatrix first;

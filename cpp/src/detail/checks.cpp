@@ -18,6 +18,12 @@ void check_positive(double value, const std::string& name) {
   if (!(value > 0.0)) throw InvalidArgument(name + ": " + std::to_string(value) + ", expected > 0.");
 }
 
+void check_angle_weight(double weight) {
+  if (!(weight > 0.0 && std::isfinite(weight)))
+    throw InvalidArgument("options.angle_weight: " + std::to_string(weight) +
+                          ", expected m per rad, finite and > 0.");
+}
+
 void check_capacity(const Arm& arm) {
   if (arm.joint_count() > joint_capacity)
     throw InvalidArgument("arm: " + std::to_string(arm.joint_count()) + " free joints, expected at most " +

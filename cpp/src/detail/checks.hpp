@@ -9,6 +9,8 @@ namespace dmp::detail {
 
 /// InvalidArgument unless value > 0.
 void check_positive(double value, const std::string& name);
+/// InvalidArgument unless 0 < weight < infinity: an infinite one makes a NaN of an error of 0.
+void check_angle_weight(double weight);
 /// InvalidArgument unless the solvers' memory of fixed size holds the arm's joints.
 void check_capacity(const Arm& arm);
 /// InvalidArgument unless the weights are finite and >= 0, some of them > 0, and not just two turns free.
