@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from dmpcpp import motion
 from dmpcpp._core import JointTrajectory
@@ -13,7 +14,11 @@ __all__ = ["EFFORT", "Accept", "to_follow"]
 Accept = Callable[[JointTrajectory], bool]
 """A last word on joints that carry the whole motion, for what kinematics does not see."""
 
-EFFORT = {"starts": 8, "anchors": 3, "thorough": False}  # of the search for joints along one candidate's path
+EFFORT: dict[str, Any] = {
+    "starts": 8,
+    "anchors": 3,
+    "thorough": False,
+}  # of the search for joints along one candidate's path
 
 _STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
 _STEP_ANGLE = 0.1  # rad, likewise
