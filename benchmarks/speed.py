@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import json
 import statistics
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import click
@@ -22,6 +24,8 @@ from benchmarks.peers import installed
 BASIS_COUNT = 100
 _ROUNDS = 7
 _SHORTEST = 0.02  # s, of one round; what is quicker is repeated within it
+
+MANY = 1000
 
 Work = Callable[[], object]
 
@@ -99,6 +103,7 @@ def _beside_movement_primitives() -> Iterator[Speed]:
         dmp.imitate(TIME, rows)
         return dmp
 
+    yield _each(compare(f"fit of {MANY} on one time grid, each", _many_fits(position), name, theirs_position, 50))
     pose_model, pose_dmp = _fit_pose(poses), theirs_pose()
     yield compare("fit, position", lambda: _fit_position(position), name, theirs_position, 25)
     yield compare("fit, pose", lambda: _fit_pose(poses), name, theirs_pose, 100)
@@ -109,6 +114,17 @@ def _beside_movement_primitives() -> Iterator[Speed]:
     yield compare(
         "step, pose", lambda: (run.step(DT) or run.reset(), run.pose), name, lambda: pose_dmp.step(state, velocity), 80
     )
+
+
+def _many_fits(position: np.ndarray) -> Work:
+    """One call on as many different demonstrations, as arrays: (M, T, 3)."""
+    scale = np.linspace(0.5, 1.5, MANY)[:, None, None]
+    many = scale * position
+    return lambda: dmpcpp.Dmp.fit_each(TIME, many, basis_count=BASIS_COUNT)
+
+
+def _each(speed: Speed) -> Speed:
+    return replace(speed, ours=speed.ours / MANY)
 
 
 def _beside_pydmps() -> Iterator[Speed]:
@@ -138,6 +154,18 @@ def _fit_pose(poses: np.ndarray) -> dmpcpp.PoseDmp:
     return dmpcpp.PoseDmp.fit(dmpcpp.PoseDemonstration(TIME, poses), basis_count=BASIS_COUNT)
 
 
+def import_milliseconds() -> tuple[float, float]:
+    """Return what importing numpy takes, and dmpcpp after it: medians of new processes, ms of CPU time."""
+    code = (
+        "import time; a = time.process_time(); import numpy; b = time.process_time(); import dmpcpp; "
+        "c = time.process_time(); print(b - a, c - b)"
+    )
+    runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(9)]
+    times = [[1e3 * float(number) for number in run.stdout.split()] for run in runs]
+    numpy_, ours = (statistics.median(column) for column in zip(*times, strict=True))
+    return numpy_, ours
+
+
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print numbers for machines.")
 def main(as_json: bool) -> None:
@@ -154,6 +182,10 @@ def main(as_json: bool) -> None:
             f"{mark} {speed.task:32} {1e6 * speed.ours:10.2f} us   {speed.peer} {1e6 * speed.theirs:10.1f} us   "
             f"{speed.ratio:6.0f} x (goal {speed.goal:g})"
         )
+    numpy_, ours = import_milliseconds()
+    click.echo(
+        f"{'ok  ' if ours <= 20.0 else 'MISS'} import: numpy {numpy_:.0f} ms, dmpcpp {ours:.1f} ms more (goal 20)"
+    )
 
 
 if __name__ == "__main__":

@@ -5,8 +5,6 @@
 #include <dmp/file.hpp>
 #include <dmp/so3.hpp>
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +13,8 @@
 #include <map>
 #include <string>
 #include <vector>
+
+#include "stopwatch.hpp"
 
 namespace {
 
@@ -69,6 +69,13 @@ std::map<std::string, std::function<void()>> operations() {
       {"step_position", stepping(Run(dmp))},
       {"step_pose", stepping(PoseRun(pose))},
       {"step_pose_log_linear", stepping(PoseRun(PoseDmp::fit(both, log_linear())))},
+      {"step_pose_at_rest",  // long after the end: as fast as any, unless something turned denormal
+       [run =
+            [&] {
+              PoseRun held(pose);
+              for (int i = 0; i < 2000; ++i) held.step(5.0);
+              return held;
+            }()]() mutable { run.step(kStep); }},
       {"fit_position", [t, y] { Dmp::fit(Demonstration(t, y)); }},
       {"fit_pose", [t, p] { PoseDmp::fit(PoseDemonstration(t, p)); }},
       {"fit_100_positions", [t, ys = std::vector<RowMatrix>(100, y)] { fit_each(t, ys); }},
@@ -76,29 +83,6 @@ std::map<std::string, std::function<void()>> operations() {
       {"rollout_position", [dmp] { dmp.rollout({}, {}, kStep); }},
       {"rollout_pose", [pose] { pose.rollout({}, {}, kStep); }},
   };
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double median_seconds(const std::function<void()>& operation) {
-  int repeats = 1;
-  std::vector<double> found;
-  while (found.size() < 15) {
-    const double begin = thread_seconds();
-    for (int i = 0; i < repeats; ++i) operation();
-    const double spent = thread_seconds() - begin;
-    if (spent < 0.02) {
-      repeats *= 2;
-    } else {
-      found.push_back(spent / repeats);
-    }
-  }
-  std::nth_element(found.begin(), found.begin() + 7, found.end());
-  return found[7];
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ void ForcingTerm::evaluate_equal_in_time(double s, double* f) const noexcept {
     psi *= up ? ratio[0] : ratio[1];
   }
   Eigen::Map<Row> mean(f);
-  mean = (std::exp(-basis_.alpha_x_ * s) / totals.sum()) * sum;
+  mean = (basis_.x(s) / totals.sum()) * sum;
 }
 
 void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {

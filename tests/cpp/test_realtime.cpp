@@ -81,9 +81,42 @@ TEST_CASE("runs of positions in any number of dimensions and of orientations tak
         }) == 0);
 }
 
+namespace {
+
+bool denormal(const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  return values.unaryExpr([](double v) { return std::fpclassify(v) == FP_SUBNORMAL ? 1.0 : 0.0; }).any();
+}
+
+}  // namespace
+
+TEST_CASE("a run that is kept going for ever comes to rest, and nothing decays into denormal numbers") {
+  for (const bool force_after_end : {false, true})
+    for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear}) {
+      DmpOptions options;
+      options.orientation_form = form;
+      options.force_after_end = force_after_end;
+      options.tempo_filter = 0.05;
+      PoseRun run(PoseDmp::fit(pose(200, 1.0), options));
+      run.step(1e-3);
+      Eigen::Matrix4d goal = run.goal();
+      goal(0, 3) += .1;
+      run.set_goal(goal);
+      run.set_duration(0.7);
+      bool found = false;
+      for (int i = 0; i < 300; ++i) {  // 1500 durations
+        run.step(3.5);
+        found = found || denormal(run.pose()) || denormal(run.twist()) || denormal(run.acceleration());
+      }
+      CHECK_FALSE(found);
+      CHECK(run.twist().norm() < 1e-12);
+      CHECK((run.pose() - goal).norm() < 1e-12);
+    }
+}
+
 TEST_CASE("these are the methods that a control loop may call") {
   std::set<std::string> found;
-  for (const char* header : {"dmp.hpp", "joint_tracker.hpp", "orientation_dmp.hpp", "pose_dmp.hpp"}) {
+  for (const char* header :
+       {"dmp.hpp", "joint_tracker.hpp", "mailbox.hpp", "orientation_dmp.hpp", "pose_dmp.hpp"}) {
     std::ifstream file(std::filesystem::path(DMP_INCLUDE_FOLDER) / "dmp" / header);
     std::stringstream text;
     text << file.rdbuf();
@@ -106,6 +139,7 @@ TEST_CASE("these are the methods that a control loop may call") {
                                        "pose",
                                        "position",
                                        "position_error",
+                                       "post",
                                        "quaternion",
                                        "reset",
                                        "resume",
@@ -117,6 +151,7 @@ TEST_CASE("these are the methods that a control loop may call") {
                                        "start_from",
                                        "status",
                                        "step",
+                                       "take",
                                        "time",
                                        "track",
                                        "twist",

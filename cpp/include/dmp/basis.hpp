@@ -54,6 +54,7 @@ class DMP_EXPORT GaussianBasis {
 
   GaussianBasis(int count, double alpha_x);
   Place place(double s) const noexcept;
+  double x(double s) const noexcept;
   Window equal_in_time_window(double s, double* psi) const noexcept;
   Window source_window(double s, double* psi) const noexcept;
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "detail/flush.hpp"
+
 namespace dmp::detail {
 namespace {
 
@@ -193,6 +195,7 @@ void OrientationMotion::advance_ude(double step, const double* start, const doub
 
   q_ = so3::exp_quaternion(step / 6.0 * (v1 + 2.0 * (v2 + v3) + v4)) * q_;
   eta_ += step / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+  eta_ = eta_.unaryExpr(&flushed);
   goal_ = goal_end;
   e_ = error(goal_, q_);
 }

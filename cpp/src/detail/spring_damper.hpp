@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "detail/flush.hpp"
+
 namespace dmp::detail {
 
 /// The linear part of the transformation system over a step sigma of the phase, exactly:
@@ -22,8 +24,8 @@ class SpringDamper {
   void advance(double& u, double& z, double f_start, double f_middle, double f_end) const noexcept {
     const double next =
         e_(0, 0) * u + e_(0, 1) * z + b_(0, 0) * f_start + b_(0, 1) * f_middle + b_(0, 2) * f_end;
-    z = e_(1, 0) * u + e_(1, 1) * z + b_(1, 0) * f_start + b_(1, 1) * f_middle + b_(1, 2) * f_end;
-    u = next;
+    z = flushed(e_(1, 0) * u + e_(1, 1) * z + b_(1, 0) * f_start + b_(1, 1) * f_middle + b_(1, 2) * f_end);
+    u = flushed(next);
   }
 
  private:
