@@ -14,11 +14,8 @@ __all__ = ["EFFORT", "Accept", "to_follow"]
 Accept = Callable[[JointTrajectory], bool]
 """A last word on joints that carry the whole motion, for what kinematics does not see."""
 
-EFFORT: dict[str, Any] = {
-    "starts": 8,
-    "anchors": 3,
-    "thorough": False,
-}  # of the search for joints along one candidate's path
+EFFORT: dict[str, Any] = {"starts": 8, "anchors": 3, "thorough": False}
+"""Of the search for joints along one candidate's path."""
 
 _STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
 _STEP_ANGLE = 0.1  # rad, likewise
