@@ -166,7 +166,7 @@ def test_a_robot_is_sent_nothing_that_is_not_verified(tmp_path):
 def test_urscript_is_refused_for_seven_joints_before_anything_runs(tmp_path):
     pytest.importorskip("pybullet_data")
     done = run("imitate", hand(tmp_path), "--export", "urscript", "--out", tmp_path / "out")
-    assert done.exit_code == 2 and "7 joints, expected the 6" in done.output
+    assert done.exit_code == 2 and "7 joints, expected 6 for URScript" in done.output
     assert not (tmp_path / "out").exists()
 
 

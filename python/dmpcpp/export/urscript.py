@@ -111,7 +111,7 @@ def read_urscript(path: str | PathLike[str]) -> tuple[float, Array]:
 
 def _six(joint_names: Sequence[str]) -> None:
     if len(joint_names) != _JOINTS:
-        raise InvalidArgument(f"joint_names: {len(joint_names)} joints, expected the 6 of an arm that takes URScript.")
+        raise InvalidArgument(f"joint_names: {len(joint_names)} joints, expected 6 for URScript.")
 
 
 def _script(joints: Array, period: float, lookahead: float, gain: float, name: str) -> str:

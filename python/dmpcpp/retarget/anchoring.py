@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
@@ -26,7 +27,8 @@ _COARSE = 40  # poses that stand for the motion while candidates are compared
 _SCALES = 5
 _YAWS = 24
 _TOOLS = 24  # random tool rotations, where none is given
-_FOLLOWED = 30  # candidates that are followed from end to end at most
+_FOLLOWED = 8  # candidates of one scale that are followed from end to end at most
+_FEW = 5  # every fifth of the coarse poses is looked at first: most candidates miss one of them
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ def anchor_within_reach(
     tool_rotation : array_like (3, 3), optional
         Searched unless given, or set by a pose.
     seed : int
-        Of the random tool rotations.
+        Of the random tool rotations and of the order.
     accept : JointTrajectory -> bool, optional
         As in `place`.
 
@@ -147,8 +149,9 @@ def anchor_within_reach(
     """
     if not 0.0 < scale[0] <= scale[1] < np.inf:
         raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
-    tools = _tools(at, tool_rotation, np.random.default_rng(seed))
-    candidates = _candidates(recording, at, on, scale, yaw, tools)
+    scales = np.geomspace(scale[1], scale[0], _SCALES).tolist() if scale[0] < scale[1] else [scale[0]]
+    turns = _turns(at, yaw, tool_rotation, np.random.default_rng(seed))
+    candidates = _candidates(recording, at, on, scales, turns)
     found = _carried(candidates, recording, arm, accept)
     note = reach(found, recording, arm).describe()
     if found.start is None:
@@ -173,50 +176,58 @@ def _sample(on: Anchor | ArrayLike) -> int | None:
     return 0 if on == "start" else -1
 
 
-def _tools(at: ArrayLike, given: ArrayLike | None, random: np.random.Generator) -> list[ArrayLike | None]:
-    """Return the tool rotations to try: the one that is given or set by a pose, or random ones."""
-    if given is not None or np.ndim(at) != 1:
-        return [given]
-    return list(Rotation.from_quat(random.normal(size=(_TOOLS, 4))).as_matrix())
-
-
 def _candidates(
     recording: Recording,
     at: ArrayLike,
     on: Anchor | ArrayLike,
-    scale: tuple[float, float],
-    yaw: float | None,
-    tools: list[ArrayLike | None],
+    scales: list[float],
+    turns: list[tuple[ArrayLike | None, float]],
 ) -> Iterator[Placement]:
     """Yield what is to be tried, the largest first."""
-    low, high = scale
-    scales = np.geomspace(high, low, _SCALES).tolist() if low < high else [high]
+    for size, (tool, yaw) in product(scales, turns):
+        yield anchor(recording, at, on=on, scale=size, yaw=yaw, tool_rotation=tool)
+
+
+def _turns(
+    at: ArrayLike, yaw: float | None, tool: ArrayLike | None, random: np.random.Generator
+) -> list[tuple[ArrayLike | None, float]]:
+    """Return the tool rotations and yaws to try, in an order in which neighbours differ."""
     yaws = np.linspace(-np.pi, np.pi, _YAWS, endpoint=False).tolist() if yaw is None else [yaw]
-    for size, tool, angle in product(scales, tools, yaws):
-        yield anchor(recording, at, on=on, scale=size, yaw=angle, tool_rotation=tool)
+    tools: list[ArrayLike | None] = [tool]
+    if tool is None and np.ndim(at) == 1:  # a pose sets it
+        tools = list(Rotation.from_quat(random.normal(size=(_TOOLS, 4))).as_matrix())
+    turns = list(product(tools, yaws))
+    return [turns[k] for k in random.permutation(len(turns))]
 
 
 def _carried(candidates: Iterator[Placement], recording: Recording, arm: Arm, accept: Accept | None) -> Placement:
     """Return the first that the arm follows from end to end, with its first joints; else the first of those with most
     poses within reach.
     """
-    poses = motion.poses(recording)
-    few = poses[np.unique(np.linspace(0, len(poses) - 1, _COARSE).round().astype(int))]
+    coarse = np.unique(np.linspace(0, len(recording) - 1, _COARSE).round().astype(int))
+    poses = motion.poses(recording)[coarse]
     path = to_follow(recording)
     quick = InverseKinematics(arm, iteration_limit=150, diagnose=False)
-    most, followed = -1, 0
+    most, followed = -1, Counter[float]()
     for placement in candidates:
-        solved = quick.solve_many(placement.apply(few)).solved
+        if followed[placement.scale] == _FOLLOWED:
+            continue
+        solved = _solved(placement.apply(poses), quick)
         if solved > most:
             most, best = solved, placement
-        if solved == len(few):
+        if solved == len(poses):
             start = _start(placement, path, arm, accept)
             if start is not None:
                 return replace(placement, start=start)
-            followed += 1
-        if followed == _FOLLOWED:
-            break
+            followed[placement.scale] += 1
     return best
+
+
+def _solved(poses: Array, quick: InverseKinematics) -> int:
+    """Return how many of the poses are solved: of a few, and of the others if these all are."""
+    few = np.arange(len(poses)) % _FEW == 0
+    solved = quick.solve_many(poses[few]).solved
+    return solved if solved < few.sum() else solved + quick.solve_many(poses[~few]).solved
 
 
 def _start(placement: Placement, path: Recording, arm: Arm, accept: Accept | None) -> Array | None:
