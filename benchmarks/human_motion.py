@@ -23,7 +23,11 @@ from benchmarks.figures import Figure
 
 Array = NDArray[np.float64]
 
-_CYCLES, _LEARNED = 20, 15
+_CYCLES = 20
+
+LEARNED = 15
+"""Of the reaches; the others are predicted."""
+
 _SHAKE = 3.0  # Hz; a hand-held camera moves more slowly, what is faster is the tracker's noise
 _RATE = 30.0  # Hz, of the tracker
 _PLATE = ("hand_top", "hand_left", "hand_right")
@@ -34,18 +38,10 @@ _PLATE = ("hand_top", "hand_left", "hand_right")
 
 def grasping(folder: Path) -> tuple[Recording, Array]:
     """Return the hand's motion, and its distance (T,) [m] to the marker on the pillow that it grasps."""
-    markers, at = _markers(folder / "qualisys_dfki" / "recording.tsv")
-    plate = np.stack([markers[name] for name in _PLATE], axis=1)
-    centre = plate.mean(axis=1)
-    hand = Recording(
-        time=at,
-        position=centre,
-        rotation=_attitude(plate - centre[:, None]),
-        body="hand",
-        source="recording.tsv",
-        up_axis="z",
-    )
-    return hand, np.linalg.norm(centre - markers["pillow_top"], axis=1)
+    path = folder / "qualisys_dfki" / "recording.tsv"
+    hand = recordings.load(path, markers=_PLATE, body="hand", up_axis="z")
+    pillow = recordings.markers(path, up_axis="z").chosen(["pillow_top"])
+    return hand, np.linalg.norm(hand.position - pillow.position[:, 0], axis=1)
 
 
 def starts(parts: list[Recording]) -> list[float]:
@@ -53,9 +49,9 @@ def starts(parts: list[Recording]) -> list[float]:
     return [float(part.history[-1].split(": ")[1].split(" ..")[0]) for part in parts]
 
 
-def reaches(cycles: list[Recording]) -> list[Recording]:
-    """Return the way out of each cycle: up to its first rest, by the speed of the hand alone."""
-    return [motion.segments(cycle, pause=0.0, angle_weight=0.0)[0] for cycle in cycles]
+def reaches(cycles: list[Recording], rest: float = 0.05) -> list[Recording]:
+    """Return the way out of each cycle: up to its first rest, by the speed of the hand alone, in shares of its peak."""
+    return [motion.segments(cycle, rest=rest, pause=0.0, angle_weight=0.0)[0] for cycle in cycles]
 
 
 def repetitions(folder: Path) -> Iterator[Figure]:
@@ -73,9 +69,9 @@ def prediction(folder: Path) -> Iterator[Figure]:
     """Predict five reaches from their start, goal and duration: fifteen learned together beside each alone."""
     hand, _ = grasping(folder)
     parts = reaches(motion.cycles(hand))
-    lessons = [motion.demonstration(part) for part in parts[:_LEARNED]]
-    together = _predicted(lessons, parts[_LEARNED:])
-    alone = [_predicted([lesson], parts[_LEARNED:]) for lesson in lessons]
+    lessons = [motion.demonstration(part) for part in parts[:LEARNED]]
+    together = _predicted(lessons, parts[LEARNED:])
+    alone = [_predicted([lesson], parts[LEARNED:]) for lesson in lessons]
     yield Figure("reaches 16-20 predicted by 1-15 together; goal: the best single reach", together, min(alone), "mm")
     yield Figure("the same; goal: the mean of the single reaches", together, float(np.mean(alone)), "mm")
 
@@ -83,10 +79,11 @@ def prediction(folder: Path) -> Iterator[Figure]:
 def _predicted(lessons: list[dmpcpp.PoseDemonstration], asked: list[Recording]) -> float:
     """Return the mean RMSE [mm] of positions over the reaches asked for."""
     model = dmpcpp.PoseDmp.fit(lessons, scaling="rotation_dilation")
-    return float(np.mean([_prediction_error(model, part) for part in asked]))
+    return float(np.mean([prediction_error(model, part) for part in asked]))
 
 
-def _prediction_error(model: dmpcpp.PoseDmp, part: Recording) -> float:
+def prediction_error(model: dmpcpp.PoseDmp, part: Recording) -> float:
+    """Return the RMSE [mm] of the positions of a reach, predicted from its start, goal and duration."""
     run = dmpcpp.PoseRun(model)
     poses = motion.poses(part)
     run.duration = part.duration
@@ -99,28 +96,13 @@ def _prediction_error(model: dmpcpp.PoseDmp, part: Recording) -> float:
     return 1e3 * _rms(np.array(reached) - part.position)
 
 
-def _markers(path: Path) -> tuple[dict[str, Array], Array]:
-    """Return positions [m] by marker, and times [s], of a Qualisys table of markers."""
-    lines = [line.split("\t") for line in path.read_text().splitlines()]
-    header = next(k for k, cells in enumerate(lines) if cells[0] == "Frame")
-    table = np.array([[float(cell) for cell in cells] for cells in lines[header + 1 :]])
-    first = {name.removesuffix(" X"): k for k, name in enumerate(lines[header]) if name.endswith(" X")}
-    return {name: table[:, k : k + 3] / 1e3 for name, k in first.items()}, table[:, 1]
-
-
-def _attitude(arms: Array) -> Array:
-    """Return the rotations (T, 3, 3) that carry the first frame's markers (T, M, 3) to each frame's (Kabsch 1976)."""
-    u, _, vt = np.linalg.svd(np.einsum("tmi,mj->tij", arms, arms[0]))
-    handed = np.linalg.det(u @ vt)
-    u[:, :, 2] *= handed[:, None]
-    return Rotation.from_matrix(u @ vt).as_matrix()
-
-
 # ---- one motion, by motion capture and by SLAM: TUM -----------------------------------------------------
 
 
-def tracking_noise(folder: Path) -> Iterator[Figure]:
-    """Hold what was learned from a noisy tracker against the motion capture of the same motion."""
+def tracking(folder: Path) -> tuple[Recording, Callable[[Array], tuple[float, float]]]:
+    """Return the tracker's recording; and what tells of positions (T, 3) at its times how far they are from the motion
+    capture [mm]: in all, and above 3 Hz.
+    """
     truth = np.loadtxt(folder / "tum_evo" / "freiburg1_xyz-groundtruth.txt")
     tracked = recordings.load(folder / "tum_evo" / "freiburg1_xyz-rgbdslam.txt")
     at = np.loadtxt(folder / "tum_evo" / "freiburg1_xyz-rgbdslam.txt")[:, 0]
@@ -130,17 +112,27 @@ def tracking_noise(folder: Path) -> Iterator[Figure]:
     def errors(position: Array) -> tuple[float, float]:
         return _total_and_shake(_onto(position[both], there) - there, at[both])
 
+    return tracked, errors
+
+
+def learned_calmly(tracked: Recording, cutoff: float, basis_count: int) -> Array:
+    """Return the positions (T, 3) at the recording's times of what is learned from it after a low-pass [Hz]."""
+    calm = motion.prepare(tracked, motion.Preparation(resample=_RATE, low_pass=cutoff))
+    model = dmpcpp.PoseDmp.fit(motion.demonstration(calm), basis_count=basis_count)
+    return np.asarray(model.rollout_at(np.minimum(tracked.time, calm.duration)).pose[:, :3, 3])
+
+
+def tracking_noise(folder: Path) -> Iterator[Figure]:
+    """Hold what was learned from a noisy tracker against the motion capture of the same motion."""
+    tracked, errors = tracking(folder)
     total, shake = errors(tracked.position)
     yield Figure("SLAM recording against motion capture", total, 13.6, "mm")
     yield Figure("SLAM recording above 3 Hz", shake, 3.7, "mm")
     raw = dmpcpp.PoseDmp.fit(motion.demonstration(tracked), basis_count=400, derivatives="smooth")
     kept = errors(raw.rollout_at(tracked.time).pose[:, :3, 3])[1]
     yield Figure("learned from it without a low-pass, N = 400, above 3 Hz; goal: the recording's", kept, shake, "mm")
-    calm = motion.prepare(tracked, motion.Preparation(resample=_RATE, low_pass=_SHAKE))
     for count in (100, 400):
-        model = dmpcpp.PoseDmp.fit(motion.demonstration(calm), basis_count=count)
-        plan = model.rollout_at(np.minimum(tracked.time, calm.duration))
-        learned, left = errors(plan.pose[:, :3, 3])
+        learned, left = errors(learned_calmly(tracked, _SHAKE, count))
         yield Figure(
             f"learned from it, N = {count}, above 3 Hz; goal: a third of the recording's", left, shake / 3, "mm"
         )

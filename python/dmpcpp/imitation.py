@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -36,10 +37,15 @@ from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement
 from dmpcpp.simulation import Check, ExecutionLog, Simulator
 
-__all__ = ["STAGES", "Imitation", "imitate", "learn", "write"]
+__all__ = ["STAGES", "Imitation", "PlacementPolicy", "imitate", "learn", "write"]
 
 Progress = Callable[[str, float], None]
 """Called as progress(stage, share done): a name of STAGES and 0 to 1."""
+
+PlacementPolicy = Callable[..., Placement]
+"""Called as policy(recording, arm, accept=...): `retarget.place` is one, and `retarget.anchor_within_reach` with its
+anchor bound, `functools.partial(retarget.anchor_within_reach, at=(0.4, 0, 0.5), on="start")`.
+"""
 
 Engine = Callable[..., Simulator]
 
@@ -122,7 +128,7 @@ def imitate(
     arm: Arm,
     *,
     seed: int = 0,
-    place: bool = True,
+    place: bool | PlacementPolicy = True,
     scale: tuple[float, float] = (0.25, 1.0),
     smooth: bool = True,
     basis_count: int | None = None,
@@ -137,11 +143,11 @@ def imitate(
     arm : Arm
     seed : int
         Of the search for a placement.
-    place : bool
-        Search a placement of the motion in the arm's workspace; if False the recorded poses are taken as
-        poses of the arm's tip in its base frame.
+    place : bool or PlacementPolicy
+        Search a placement of the motion in the arm's workspace (`retarget.place`), or by the policy given; if False
+        the recorded poses are taken as poses of the arm's tip in its base frame.
     scale : (float, float)
-        Smallest and largest scale of positions that a placement may have.
+        Smallest and largest scale of positions that `retarget.place` may choose.
     smooth : bool
         Whether noise found in the recording may be smoothed out in learning; the recording's history tells.
     basis_count : int, optional
@@ -163,8 +169,9 @@ def imitate(
     engines = _engines(simulator)
     tell("place", 0.0)
     recording = motion.continuous(recording)
-    clear = _clear_of_itself(arm, engines[0])
-    placement = retarget.place(recording, arm, seed, scale=scale, accept=clear) if place else None
+    if place is True:
+        place = partial(retarget.place, seed=seed, scale=scale)
+    placement = place(recording, arm, accept=_clear_of_itself(arm, engines[0])) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
     demonstration, noise = motion.demonstration(placed), motion.noise(placed)

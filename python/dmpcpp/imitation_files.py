@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,35 +11,65 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from dmpcpp import export, metrics, motion, plot
+from dmpcpp import export, metrics, motion, plot, simulation
 from dmpcpp._core import save
 from dmpcpp.atomic import replacing, write_text
 
 if TYPE_CHECKING:
     from dmpcpp.imitation import Imitation
 
-__all__ = ["write"]
+__all__ = ["SENT_RATE", "write"]
+
+SENT_RATE = 125.0
+"""Hz, of the joints that robots are sent: one sample a servoj command; a ROS 2 controller fills in by quintics."""
 
 
-def write(run: Imitation, folder: str | PathLike[str]) -> None:
+def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = ()) -> tuple[str, ...]:
     """Write model.json, plan.npz, joints.csv, picture.png and summary.json, each whole or not at all.
 
-    The summary comes last: a folder that has one has all.
+    The summary comes last: a folder that has one has all. What robots are sent, by the names in `export.FORMATS`, is
+    written of a run whose every check held, from rest to rest as it was simulated and within the arm's limits; what an
+    earlier run left of it is removed.
+
+    Returns
+    -------
+    tuple of str
+        The names of the files for robots; none where a check failed.
 
     Raises
     ------
+    InvalidArgument
+        An unknown format, or one that this arm does not take.
+    MissingDependency
+        What a format needs is not installed.
     FileError
         The folder or a file can not be written.
     """
+    chosen = export.chosen(formats, run.log.arm)
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "summary.json").unlink(missing_ok=True)
+    for format_ in export.FORMATS.values():
+        format_.remove(folder)
     arm = run.log.arm
     save(run.model, folder / "model.json")
     export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip)
     export.write_joints(folder / "joints.csv", run.joints)
     _picture(run, folder / "picture.png")
+    sent = chosen if run.ok else ()
+    for format_ in sent:
+        format_.write(folder / format_.file, _as_sent(run), arm)
     write_text(folder / "summary.json", json.dumps(run.summary(), indent=2, allow_nan=False) + "\n")
+    return tuple(format_.file for format_ in sent)
+
+
+def _as_sent(run: Imitation) -> export.JointSamples:
+    """Return the joints as the simulated arm followed them: run up from rest, and stopped at the end."""
+    arm = run.log.arm
+    sent = simulation.from_rest_to_rest(arm, run.joints, SENT_RATE)
+    return export.JointSamples(
+        sent.time - sent.time[0], sent.position, sent.velocity, sent.acceleration, tuple(arm.joint_names)
+    )
 
 
 def _picture(run: Imitation, path: Path) -> None:

@@ -18,19 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from dmpcpp import motion
 from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.motion import LONGEST_GAP
 from dmpcpp.recordings.markers import Markers
-from dmpcpp.recordings.noise import noise, white_noise
 from dmpcpp.recordings.reader import Reader
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.registry import prepared
 from dmpcpp.recordings.rigid_body import rigid_body
 from dmpcpp.recordings.stated import Stated
 
-__all__ = ["LONGEST_GAP", "BodyReport", "Inspection", "MarkerReport", "inspect"]
-
-LONGEST_GAP = 0.2
-"""s; a longer gap can not be filled in good faith: a hand turns round within it."""
+__all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 
 _JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn can not be told from its reverse
 
@@ -39,9 +37,9 @@ _JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half tur
 class BodyReport:
     """What one body's recording is like; lengths in m, times in s, angles in rad.
 
-    `noise_position` and `noise_angle` are standard deviations along and about one axis, see `noise`; `extent` is the
-    range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples. `refused` says why
-    the body can not be read, and then nothing else is known.
+    `noise_position` and `noise_angle` are standard deviations along and about one axis, see `motion.noise`; `extent` is
+    the range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples. `refused` says
+    why the body can not be read, and then nothing else is known.
     """
 
     name: str
@@ -207,7 +205,7 @@ def _report(recording: Recording) -> BodyReport:
     time, position = recording.time[there], recording.position[there]
     steps = np.diff(time)
     turned = _turns(recording.rotation[there])
-    position_noise, angle_noise = noise(recording)
+    noise = motion.noise(recording)
     return BodyReport(
         name=recording.body,
         samples=len(recording),
@@ -216,8 +214,8 @@ def _report(recording: Recording) -> BodyReport:
         missing=int((~there).sum()),
         longest_gap=_longest_gap(recording.time, there),
         jumps=int((turned > _JUMP).sum()),
-        noise_position=position_noise,
-        noise_angle=angle_noise,
+        noise_position=noise.position,
+        noise_angle=noise.angle,
         extent=_extent(position),
         peak_speed=float((np.linalg.norm(np.diff(position, axis=0), axis=1) / steps).max()),
         peak_turning=float((turned / steps).max()),
@@ -232,7 +230,7 @@ def _marker(markers: Markers, k: int) -> MarkerReport:
         name=markers.names[k],
         missing=int((~there).sum()),
         longest_gap=_longest_gap(markers.time, there),
-        noise_position=white_noise(position),
+        noise_position=motion.white_noise(markers.time, position),
         extent=_extent(position[there]),
     )
 
@@ -250,14 +248,10 @@ def _extent(position: Array) -> tuple[float, float, float]:
 
 
 def _longest_gap(time: Array, there: NDArray[np.bool_]) -> float:
-    """Return the longest time without a sample that is there, beyond the usual step; the ends count [s]."""
-    known = time[there]
-    if not len(known):
+    """Return the longest time [s] without a sample between two that are there; all of it where none is."""
+    if not there.any():
         return float(time[-1])
-    usual = float(np.median(np.diff(time)))
-    steps = np.diff(known, prepend=time[0], append=time[-1])
-    longest = float(steps.max())
-    return longest if longest > 1.75 * usual else 0.0
+    return max((gap.duration for gap in motion.gaps_in(time, there)), default=0.0)
 
 
 def _problems(body: BodyReport) -> list[str]:

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 from dmpcpp import motion, recordings
 
-from benchmarks import human_motion
+from benchmarks import choices, human_motion
 from benchmarks.recordings import main
 
 
@@ -53,10 +53,21 @@ def test_the_mean_of_nine_demonstrations_is_carried_out(recorded):
     hold(human_motion.mean_executed(recorded), 2)
 
 
-def test_the_benchmark_says_what_it_needs(monkeypatch):
+@pytest.mark.parametrize("command", [main, choices.main])
+def test_the_benchmark_says_what_it_needs(command, monkeypatch):
     monkeypatch.setenv("DMPCPP_RECORDINGS", "nowhere")
-    done = CliRunner().invoke(main, [])
+    done = CliRunner().invoke(command, [])
     assert done.exit_code == 2 and "DMPCPP_RECORDINGS" in done.output
+
+
+@pytest.mark.slow
+def test_the_choices_behind_the_figures_are_all_shown(recorded, monkeypatch):
+    monkeypatch.setenv("DMPCPP_RECORDINGS", str(recorded))
+    done = CliRunner().invoke(choices.main, [], catch_exceptions=False)
+    rows = {line[:34].strip(): [float(cell) for cell in line[34:].split()] for line in done.output.splitlines()[2:12]}
+    assert len(rows) == 10 and all(len(row) == 5 for row in rows.values())
+    within, best_within, once, best, mean = rows["as used"]
+    assert within < best_within and once < best < mean
 
 
 CLIPS = (

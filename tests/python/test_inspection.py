@@ -6,9 +6,9 @@ import sys
 
 import numpy as np
 import pytest
+from dmpcpp import motion
 from dmpcpp.inspection import inspect
 from dmpcpp.recordings import Recording
-from dmpcpp.recordings.noise import noise
 from scipy.spatial.transform import Rotation
 
 COUNT = 400
@@ -40,12 +40,13 @@ def table(path, recording=None, header=HEADER, lost=(), swap=()):
 
 @pytest.mark.parametrize(("position", "angle"), [(1e-4, 1e-3), (2e-3, 5e-3)])
 def test_white_noise_is_found_to_a_tenth_of_it(position, angle):
-    found = noise(moving(position, angle))
-    assert found == pytest.approx((position, angle), rel=0.1)
+    found = motion.noise(moving(position, angle))
+    assert (found.position, found.angle) == pytest.approx((position, angle), rel=0.1)
 
 
 def test_a_motion_without_noise_shows_none():
-    assert max(noise(moving())) < 1e-8
+    found = motion.noise(moving())
+    assert max(found.position, found.angle) < 1e-8
 
 
 def test_noise_is_found_beside_gaps_and_nowhere_if_they_leave_too_little():
@@ -54,8 +55,9 @@ def test_noise_is_found_beside_gaps_and_nowhere_if_they_leave_too_little():
         lost = np.arange(COUNT) % every == 0
         position, rotation = recording.position.copy(), recording.rotation.copy()
         position[lost], rotation[lost] = np.nan, np.nan
-        found = noise(Recording(TIMES, position, rotation))
-        assert found[0] == pytest.approx(expected, rel=0.15)
+        found = motion.noise(Recording(TIMES, position, rotation))
+        assert found.position == pytest.approx(expected, rel=0.15)
+        assert found.angle == pytest.approx(expected, rel=0.15)
 
 
 def test_a_clean_recording_is_ready_and_its_figures_are_those_of_its_samples(tmp_path):
@@ -80,6 +82,11 @@ def test_gaps_are_measured_and_a_long_one_is_a_problem(tmp_path, lost, gap, ok):
     assert (found.bodies[0].missing, found.ok) == (len(lost), ok)
     assert found.bodies[0].longest_gap == pytest.approx(gap)
     assert any("a gap of 0.31 s" in problem for problem in found.problems) is not ok
+
+
+def test_lost_ends_are_no_gap_as_they_are_cut_off(tmp_path):
+    found = inspect(table(tmp_path / "a.csv", lost=range(50)), missing="empty", unit="m", up_axis="z")
+    assert (found.bodies[0].missing, found.bodies[0].longest_gap, found.ok) == (50, 0.0, True)
 
 
 def test_jumps_of_the_orientation_are_counted_and_are_a_problem(tmp_path):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from dmpcpp import learning, motion
-from dmpcpp.cli.preparation import scale_range
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise, Preparation, prepare
@@ -102,14 +101,6 @@ def test_no_cycle_to_choose_is_said_so():
     still = reaches(1)
     with pytest.raises(InvalidArgument, match="repetition: 1, expected none: there is not one in this recording"):
         prepare(still.with_("still", position=0 * still.position), Preparation(repetition=1))
-
-
-def test_a_scale_is_a_number_or_a_range():
-    assert scale_range(None) == (0.25, 1.0)
-    assert scale_range("0.5") == (0.5, 0.5)
-    assert scale_range("0.4:0.8") == (0.4, 0.8)
-    with pytest.raises(InvalidArgument, match=r"--scale: 'big', expected a number such as 0\.5"):
-        scale_range("big")
 
 
 def test_the_command_line_prepares_and_writes_the_history(tmp_path):

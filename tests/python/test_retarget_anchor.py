@@ -79,5 +79,18 @@ def test_the_search_turns_an_anchored_motion_into_reach(at):
     assert retarget.reach(found, wide, arm).share == 1.0
     assert f"{len(wide)} of {len(wide)} poses (100.0 %) within reach" in found.describe()
     np.testing.assert_allclose(found.apply_to(wide).position[0], POSE[:3, 3], atol=1e-12)
-    with pytest.raises(InvalidArgument, match="scale: none"):
-        retarget.anchor_within_reach(wide, arm, at, scale=[])
+    assert found.start is not None  # one path for all of them
+    with pytest.raises(InvalidArgument, match=r"scale: \(0\.9, 0\.5\), expected"):
+        retarget.anchor_within_reach(wide, arm, at, scale=(0.9, 0.5))
+
+
+def test_what_is_given_is_not_searched_and_what_is_not_accepted_not_taken():
+    pytest.importorskip("pybullet_data")
+    arm = arms.find("panda")
+    tool = Rotation.from_rotvec([0.0, np.pi, 0.0]).as_matrix()
+    given = {"scale": (0.8, 0.8), "yaw": 0.3, "tool_rotation": tool}
+    found = retarget.anchor_within_reach(reaches(1), arm, POSE[:3, 3], **given)
+    assert (found.scale, found.yaw) == (0.8, 0.3) and np.array_equal(found.tool_rotation, tool)
+    assert found.start is not None and "followed" not in found.note
+    refused = retarget.anchor_within_reach(reaches(1), arm, POSE[:3, 3], **given, accept=lambda joints: False)
+    assert refused.start is None and "no candidate could be followed from end to end" in refused.note

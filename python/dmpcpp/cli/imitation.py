@@ -13,7 +13,8 @@ import click
 
 from dmpcpp.cli.group import FAILED, refuse_file
 from dmpcpp.cli.options import arm_options
-from dmpcpp.cli.preparation import preparation_options, scale_range, taken_preparation
+from dmpcpp.cli.placing import placing_options, taken_placing
+from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
 from dmpcpp.cli.tables import checks_table
 
@@ -50,6 +51,14 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 type=click.Choice(["bullet", "mujoco", "both"]),
                 help="Physics engine; with both the two are compared.",
             ),
+            click.option(
+                "--export",
+                "formats",
+                multiple=True,
+                type=click.Choice(["ros2", "ros2-bag", "urscript"]),
+                help="Write what the robot is sent too, once verified: joints.yaml, joints_bag, joints.script. May be "
+                "repeated.",
+            ),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
         for option in reversed(options):
@@ -78,16 +87,11 @@ def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **ru
 @click.argument("file", type=click.Path(path_type=Path))
 @recording_options
 @preparation_options
-@click.option(
-    "--scale", metavar="S|MIN:MAX", help="Scale of positions in the arm's workspace, or its range; 0.25:1 unless given."
-)
-@click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame.")
+@placing_options
 @arm_options
 @_run_options("dmpcpp-imitation")
 def imitate(
     file: Path,
-    scale: str | None,
-    no_place: bool,
     arm: str,
     base: str | None,
     tip: str | None,
@@ -100,10 +104,11 @@ def imitate(
     from dmpcpp import arms, motion, recordings
 
     preparation, smooth = taken_preparation(options)
-    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "as_json")}
+    placing = taken_placing(options)
+    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "formats", "as_json")}
     recording = recordings.load(file, **taken_recording(options))
     recording = motion.prepare(recording, preparation)
-    _carry_out(recording, arms.load(arm, base, tip), place=not no_place, scale=scale_range(scale), smooth=smooth, **run)
+    _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, **placing, **run)
 
 
 def _carry_out(
@@ -114,21 +119,25 @@ def _carry_out(
     seed: int,
     basis_count: int | None,
     simulator: str,
+    formats: tuple[str, ...],
     as_json: bool,
     **how: Any,
 ) -> None:
-    from dmpcpp import imitation
+    from dmpcpp import export, imitation
 
     refuse_file(out)
+    export.chosen(formats, arm)  # what can not be written is refused before anything runs
     with _progress(as_json) as progress:
         run = imitation.imitate(
             recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
         )
-    imitation.write(run, out)
+    sent = imitation.write(run, out, formats)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
     else:
         _print(run, out)
+        if formats:
+            click.echo(f"for the robot: {', '.join(sent)}" if sent else "for the robot: nothing, as it is not verified")
     if not run.ok:
         sys.exit(FAILED)
 

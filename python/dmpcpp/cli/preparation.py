@@ -7,12 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from dmpcpp.errors import InvalidArgument
-
 if TYPE_CHECKING:
     from dmpcpp.motion import Preparation
-
-_SCALE = (0.25, 1.0)
 
 
 def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -73,16 +69,3 @@ def taken_preparation(options: dict[str, Any]) -> tuple[Preparation, bool]:
 
 
 _FIELDS = ("start", "end", "longest_gap", "segment", "repetition", "resample", "low_pass")
-
-
-def scale_range(text: str | None) -> tuple[float, float]:
-    """Return the smallest and the largest scale: '0.5' or '0.4:0.8'; 0.25 to 1 unless given."""
-    if text is None:
-        return _SCALE
-    low, _, high = text.partition(":")
-    try:
-        return float(low), float(high or low)
-    except ValueError:
-        raise InvalidArgument(
-            f"--scale: '{text}', expected a number such as 0.5, or a range such as 0.4:0.8."
-        ) from None

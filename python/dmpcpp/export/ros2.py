@@ -127,6 +127,11 @@ def write_ros2_bag(
         shutil.rmtree(scratch, ignore_errors=True)
 
 
+def can_write_bags(arm: Arm) -> None:
+    """Raise MissingDependency where rosbags is not installed."""
+    _rosbags()
+
+
 def read_ros2_bag(folder: str | PathLike[str], topic: str | None = None) -> JointSamples:
     """Read the first JointTrajectory message of a ROS 2 bag; times count from its first point.
 

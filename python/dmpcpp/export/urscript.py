@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -62,8 +63,7 @@ def write_urscript(
         The file can not be written; an older one is untouched.
     """
     samples = checked(trajectory, arm)
-    if len(samples.joint_names) != _JOINTS:
-        raise InvalidArgument(f"joint_names: {len(samples.joint_names)} joints, expected 6.")
+    _six(samples.joint_names)
     if len(samples.time) < 2:
         raise InvalidArgument("time: 1 sample, expected at least 2.")
     for what, value, low, high in (
@@ -79,6 +79,11 @@ def write_urscript(
     at = samples.time[0] + np.minimum(np.arange(int(np.ceil(duration / period - 1e-9)) + 1) * period, duration)
     joints = CubicHermiteSpline(samples.time, samples.position, samples.velocity)(at)
     write_text(path, _script(joints, period, lookahead, gain, name))
+
+
+def understands_urscript(arm: Arm) -> None:
+    """Refuse an arm that does not have six joints."""
+    _six(arm.joint_names)
 
 
 def read_urscript(path: str | PathLike[str]) -> tuple[float, Array]:
@@ -102,6 +107,11 @@ def read_urscript(path: str | PathLike[str]) -> tuple[float, Array]:
     if len(periods) != 1:
         raise InvalidArgument(f"{path.name}: {len(periods)} different periods of servoj, expected one.")
     return periods.pop(), finite("servoj", joints, (len(found), _JOINTS))
+
+
+def _six(joint_names: Sequence[str]) -> None:
+    if len(joint_names) != _JOINTS:
+        raise InvalidArgument(f"joint_names: {len(joint_names)} joints, expected 6 for URScript.")
 
 
 def _script(joints: Array, period: float, lookahead: float, gain: float, name: str) -> str:

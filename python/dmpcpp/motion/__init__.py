@@ -13,12 +13,12 @@ out. Every other step asks for whole recordings.
 from dmpcpp.motion.alignment import aligned, medoid
 from dmpcpp.motion.averaging import Spread, mean, spread
 from dmpcpp.motion.frames import relative_to, relative_to_pose
-from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, split
+from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, split
 from dmpcpp.motion.outliers import outliers
 from dmpcpp.motion.poses import complete, continuous, demonstration, poses, quaternions, turn_angles
 from dmpcpp.motion.preparation import Preparation, prepare
 from dmpcpp.motion.segmentation import cycles, segments, speed
-from dmpcpp.motion.smoothing import Noise, low_pass, noise, smooth
+from dmpcpp.motion.smoothing import Noise, low_pass, noise, smooth, white_noise
 from dmpcpp.motion.timing import crop, refine, resample
 
 __all__ = [
@@ -35,6 +35,7 @@ __all__ = [
     "demonstration",
     "fill",
     "gaps",
+    "gaps_in",
     "low_pass",
     "mean",
     "medoid",
@@ -53,4 +54,5 @@ __all__ = [
     "split",
     "spread",
     "turn_angles",
+    "white_noise",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation, Slerp
 
@@ -12,7 +13,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion.poses import positive
 from dmpcpp.recordings.recording import MIN_SAMPLES, Array, Recording
 
-__all__ = ["LONGEST_GAP", "Gap", "fill", "gaps", "split"]
+__all__ = ["LONGEST_GAP", "Gap", "fill", "gaps", "gaps_in", "split"]
 
 LONGEST_GAP = 0.2
 """s; a hand turns back within a longer one, and nobody knows whether it did."""
@@ -42,9 +43,14 @@ def gaps(recording: Recording) -> tuple[Gap, ...]:
     """Return the gaps between the first and the last known sample: samples marked as missing (NaN), and steps more
     than 1.75 times as long as the usual (median) one.
     """
-    known = np.flatnonzero(~recording.missing)
-    time = recording.time[known]
-    usual = float(np.median(np.diff(recording.time)))
+    return gaps_in(recording.time, ~recording.missing)
+
+
+def gaps_in(times: Array, there: NDArray[np.bool_]) -> tuple[Gap, ...]:
+    """Return the gaps, as `gaps` does, of samples at times (T,) [s] of which some are there (T,): of a marker, say."""
+    known = np.flatnonzero(there)
+    time = times[known]
+    usual = float(np.median(np.diff(times)))
     open_ = (np.diff(known) > 1) | (np.diff(time) > _SKIPPED * usual)
     return tuple(
         Gap(int(known[k]), int(known[k + 1]), float(time[k]), float(time[k + 1])) for k in np.flatnonzero(open_)

@@ -14,7 +14,17 @@ from dmpcpp.recordings.recording import Array, Recording
 if TYPE_CHECKING:
     from dmpcpp import PoseDemonstration
 
-__all__ = ["complete", "continuous", "demonstration", "poses", "positive", "quaternions", "same_times", "turn_angles"]
+__all__ = [
+    "complete",
+    "continuous",
+    "demonstration",
+    "known_quaternions",
+    "poses",
+    "positive",
+    "quaternions",
+    "same_times",
+    "turn_angles",
+]
 
 
 def complete(recording: Recording) -> Recording:
@@ -95,8 +105,17 @@ def quaternions(*recordings: Recording) -> list[Array]:
     q and -q are one rotation: each quaternion lies in the hemisphere of the one before, and each recording starts
     in the hemisphere in which the first one starts. So they may be filtered, averaged and compared as numbers.
     """
-    followed = [_followed(Rotation.from_matrix(complete(r).rotation).as_quat()) for r in recordings]
+    followed = [known_quaternions(complete(recording)) for recording in recordings]
     return [q if q[0] @ followed[0][0] >= 0.0 else -q for q in followed]
+
+
+def known_quaternions(recording: Recording) -> Array:
+    """Return the orientations as unit quaternions (T, 4), xyzw, NaN where missing, each in the hemisphere of the known
+    one before."""
+    known = ~recording.missing
+    quaternion = np.full((len(recording), 4), np.nan)
+    quaternion[known] = _followed(Rotation.from_matrix(recording.rotation[known]).as_quat())
+    return quaternion
 
 
 def positive(name: str, value: float) -> None:

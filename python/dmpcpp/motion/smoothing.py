@@ -10,10 +10,10 @@ from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.motion.poses import complete, continuous, demonstration, positive, quaternions
+from dmpcpp.motion.poses import continuous, demonstration, known_quaternions, positive, quaternions
 from dmpcpp.recordings.recording import Array, Recording
 
-__all__ = ["Noise", "evenly_sampled", "low_pass", "noise", "smooth"]
+__all__ = ["Noise", "evenly_sampled", "low_pass", "noise", "smooth", "white_noise"]
 
 _DIFFERENCED = 7  # samples in a row
 _EVEN = 0.1  # largest deviation of a step from the mean step that a filter for even sampling bears
@@ -40,13 +40,21 @@ def noise(recording: Recording) -> Noise:
     Of samples with independent noise that deviation, weighted by divided differences of sixth order whose weights have
     length 1, has the standard deviation of the noise (Gasser, Sroka and Jennen-Steinmetz, "Residual variance and
     residual pattern in nonlinear regression", 1986, with a higher order). Slow noise such as drift is not seen; a
-    motion too fast for its rate looks like noise.
+    motion too fast for its rate looks like noise. Samples may be missing: what counts is where seven known ones stand
+    in a row, and 0 is found where none do.
     """
-    complete(recording)
-    weights = _difference_weights(recording.time)
-    turn = 2.0 * quaternions(recording)[0]  # a turn by v changes a quaternion by v / 2, in three directions of four
-    position, angle = (_deviation(weights, values) for values in (recording.position, turn))
-    return Noise(position, angle)
+    turn = 2.0 * known_quaternions(recording)  # a turn by v changes a quaternion by v / 2, in three directions of four
+    return Noise(white_noise(recording.time, recording.position), white_noise(recording.time, turn))
+
+
+def white_noise(time: Array, values: Array) -> float:
+    """Return the standard deviation, along one axis, of the noise in values (T, d) at times (T,) [s] that are free in
+    three directions: positions of a marker, say. NaN where they are missing; see `noise`.
+    """
+    window = sliding_window_view(values, _DIFFERENCED, axis=0)
+    there = np.isfinite(window).all(axis=(1, 2))
+    left = np.einsum("kj,kdj->kd", _difference_weights(time)[there], window[there])
+    return float(np.sqrt(np.sum(left**2) / (3 * len(left)))) if len(left) else 0.0
 
 
 def smooth(recording: Recording) -> Recording:
@@ -115,12 +123,6 @@ def _difference_weights(time: Array) -> Array:
     apart = window[:, :, None] - window[:, None, :] + np.eye(_DIFFERENCED)
     weights = 1.0 / np.prod(apart / np.diff(time).mean(), axis=2)
     return np.asarray(weights / np.linalg.norm(weights, axis=1, keepdims=True))
-
-
-def _deviation(weights: Array, values: Array) -> float:
-    """Return the standard deviation of the noise in values (T, d), d of them free in three directions."""
-    left = np.einsum("kj,kdj->kd", weights, sliding_window_view(values, _DIFFERENCED, axis=0))
-    return float(np.sqrt(np.sum(left**2) / (3 * len(left))))
 
 
 def _check_even(recording: Recording) -> None:

@@ -7,7 +7,8 @@
 """
 
 from dmpcpp.retarget.anchoring import Reach, anchor, anchor_within_reach, reach
+from dmpcpp.retarget.following import Accept
 from dmpcpp.retarget.placement import Placement
 from dmpcpp.retarget.search import place
 
-__all__ = ["Placement", "Reach", "anchor", "anchor_within_reach", "place", "reach"]
+__all__ = ["Accept", "Placement", "Reach", "anchor", "anchor_within_reach", "place", "reach"]

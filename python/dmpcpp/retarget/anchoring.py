@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
@@ -15,6 +16,7 @@ from dmpcpp import motion
 from dmpcpp._core import Arm, InverseKinematics
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Recording
+from dmpcpp.retarget.following import EFFORT, Accept, to_follow
 from dmpcpp.retarget.placement import Placement
 
 __all__ = ["Reach", "anchor", "anchor_within_reach", "reach"]
@@ -22,8 +24,11 @@ __all__ = ["Reach", "anchor", "anchor_within_reach", "reach"]
 Anchor = Literal["start", "goal"]
 
 _COARSE = 40  # poses that stand for the motion while candidates are compared
+_SCALES = 5
 _YAWS = 24
 _TOOLS = 24  # random tool rotations, where none is given
+_FOLLOWED = 8  # candidates of one scale that are followed from end to end at most
+_FEW = 5  # every fifth of the coarse poses is looked at first: most candidates miss one of them
 
 
 @dataclass(frozen=True)
@@ -109,43 +114,51 @@ def anchor_within_reach(
     at: ArrayLike,
     *,
     on: Anchor | ArrayLike = "start",
-    scale: Sequence[float] = (1.0, 0.75, 0.5, 0.35, 0.25),
+    scale: tuple[float, float] = (0.25, 1.0),
+    yaw: float | None = None,
+    tool_rotation: ArrayLike | None = None,
     seed: int = 0,
+    accept: Accept | None = None,
 ) -> Placement:
-    """Search the yaw, scale and, for a point, tool rotation with which the arm reaches most of an anchored motion.
+    """Search the scale, yaw and, for a point, tool rotation with which an arm carries out an anchored motion.
 
-    24 yaws, the given scales and 24 random tool rotations are tried; among equals the largest scale wins. The share
-    of the poses that are reached within the joint limits stands in the placement's note. `place` searches the
-    position too, and joints for the whole path.
+    Five scales, 24 yaws and 24 random tool rotations are tried, less what is given. The largest whose path the arm can
+    follow from end to end is taken; else the one of whose poses it reaches most. The share of the poses that are
+    reached within the joint limits, each by itself, stands in the placement's note.
 
     Parameters
     ----------
     recording, at, on
         As in `anchor`.
     arm : Arm
-    scale : sequence of float
-        Those to try.
+    scale : (float, float)
+        Smallest and largest scale of positions about the anchor.
+    yaw : float, optional
+        rad; searched unless given.
+    tool_rotation : array_like (3, 3), optional
+        Searched unless given, or set by a pose.
     seed : int
-        Of the random tool rotations.
+        Of the random tool rotations and of the order.
+    accept : JointTrajectory -> bool, optional
+        As in `place`.
 
     Raises
     ------
     InvalidArgument
-        What `anchor` refuses, or no scale to try.
+        What `anchor` refuses, or a range of scale that is empty.
     """
-    if len(scale) == 0:
-        raise InvalidArgument("scale: none, expected at least one to try.")
-    few = np.unique(np.linspace(0, len(recording) - 1, _COARSE).round().astype(int))
-    poses = motion.poses(recording)
-    solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
-    best: tuple[int, float] | None = None
-    for placement in _candidates(recording, at, on, sorted(scale, reverse=True), np.random.default_rng(seed)):
-        solved = solver.solve_many(placement.apply(poses[few])).solved
-        if best is None or (solved, placement.scale) > best:
-            best, found = (solved, placement.scale), placement
-        if best == (len(few), max(scale)):
-            break
-    return replace(found, note=reach(found, recording, arm).describe())
+    if not 0.0 < scale[0] <= scale[1] < np.inf:
+        raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
+    scales = np.geomspace(scale[1], scale[0], _SCALES).tolist() if scale[0] < scale[1] else [scale[0]]
+    turns = _turns(at, yaw, tool_rotation, np.random.default_rng(seed))
+    candidates = _candidates(recording, at, on, scales, turns)
+    found = _carried(candidates, recording, arm, accept)
+    note = reach(found, recording, arm).describe()
+    if found.start is None:
+        note += "; no candidate could be followed from end to end"
+    if recording.up_axis is None:
+        note += "; up axis not stated: z taken"
+    return replace(found, note=note)
 
 
 def reach(placement: Placement, recording: Recording, arm: Arm) -> Reach:
@@ -164,11 +177,61 @@ def _sample(on: Anchor | ArrayLike) -> int | None:
 
 
 def _candidates(
-    recording: Recording, at: ArrayLike, on: Anchor | ArrayLike, scales: list[float], random: np.random.Generator
+    recording: Recording,
+    at: ArrayLike,
+    on: Anchor | ArrayLike,
+    scales: list[float],
+    turns: list[tuple[ArrayLike | None, float]],
 ) -> Iterator[Placement]:
-    tools: list[Array | None] = [None]
-    if np.ndim(at) == 1:
+    """Yield what is to be tried, the largest first."""
+    for size, (tool, yaw) in product(scales, turns):
+        yield anchor(recording, at, on=on, scale=size, yaw=yaw, tool_rotation=tool)
+
+
+def _turns(
+    at: ArrayLike, yaw: float | None, tool: ArrayLike | None, random: np.random.Generator
+) -> list[tuple[ArrayLike | None, float]]:
+    """Return the tool rotations and yaws to try, in an order in which neighbours differ."""
+    yaws = np.linspace(-np.pi, np.pi, _YAWS, endpoint=False).tolist() if yaw is None else [yaw]
+    tools: list[ArrayLike | None] = [tool]
+    if tool is None and np.ndim(at) == 1:  # a pose sets it
         tools = list(Rotation.from_quat(random.normal(size=(_TOOLS, 4))).as_matrix())
-    yaws = np.linspace(-np.pi, np.pi, _YAWS, endpoint=False)
-    for scale, tool, yaw in product(scales, tools, yaws):
-        yield anchor(recording, at, on=on, scale=scale, yaw=float(yaw), tool_rotation=tool)
+    turns = list(product(tools, yaws))
+    return [turns[k] for k in random.permutation(len(turns))]
+
+
+def _carried(candidates: Iterator[Placement], recording: Recording, arm: Arm, accept: Accept | None) -> Placement:
+    """Return the first that the arm follows from end to end, with its first joints; else the first of those with most
+    poses within reach.
+    """
+    coarse = np.unique(np.linspace(0, len(recording) - 1, _COARSE).round().astype(int))
+    poses = motion.poses(recording)[coarse]
+    path = to_follow(recording)
+    quick = InverseKinematics(arm, iteration_limit=150, diagnose=False)
+    most, followed = -1, Counter[float]()
+    for placement in candidates:
+        if followed[placement.scale] == _FOLLOWED:
+            continue
+        solved = _solved(placement.apply(poses), quick)
+        if solved > most:
+            most, best = solved, placement
+        if solved == len(poses):
+            start = _start(placement, path, arm, accept)
+            if start is not None:
+                return replace(placement, start=start)
+            followed[placement.scale] += 1
+    return best
+
+
+def _solved(poses: Array, quick: InverseKinematics) -> int:
+    """Return how many of the poses are solved: of a few, and of the others if these all are."""
+    few = np.arange(len(poses)) % _FEW == 0
+    solved = quick.solve_many(poses[few]).solved
+    return solved if solved < few.sum() else solved + quick.solve_many(poses[~few]).solved
+
+
+def _start(placement: Placement, path: Recording, arm: Arm, accept: Accept | None) -> Array | None:
+    """Search joints at the first pose from which the whole path can be followed, to what `accept` accepts."""
+    joints = InverseKinematics(arm).follow(placement.apply(motion.poses(path)), times=path.time, **EFFORT)
+    carried = joints.report.complete and (accept is None or accept(joints))
+    return joints.position[0] if carried else None

@@ -9,7 +9,7 @@ improved by small changes, each judged by one pass along the path from the joint
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -21,6 +21,7 @@ from dmpcpp import arms, motion
 from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, duration_factor
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.retarget.following import EFFORT, Accept, to_follow
 from dmpcpp.retarget.placement import Placement
 
 __all__ = ["place"]
@@ -30,11 +31,8 @@ _COARSE = 24  # poses that stand for the motion in the first tests
 _FOLLOWED = 300  # candidates that are followed from end to end at most
 _ENOUGH = 8  # of them carried; no further ones are followed
 _MORE = 10  # times as many candidates, if none of the first is carried
-_EFFORT = {"starts": 8, "anchors": 3, "thorough": False}  # of the search for joints along one candidate's path
 _IMPROVEMENTS = 300  # small changes tried on the best one; fewer on a long path:
 _IMPROVING_POSES = 100_000  # that are followed meanwhile, about
-_STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
-_STEP_ANGLE = 0.1  # rad, likewise
 _FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
 
 
@@ -46,7 +44,7 @@ def place(
     scale: tuple[float, float] = (0.25, 1.0),
     floor: float = 0.15,
     candidates: int = 3000,
-    accept: Callable[[JointTrajectory], bool] | None = None,
+    accept: Accept | None = None,
 ) -> Placement:
     """Search a placement of the whole motion in an arm's workspace; the same seed gives the same placement.
 
@@ -126,12 +124,9 @@ class _Carried:
 class _Search:
     """One motion and one arm, and the placements found so far."""
 
-    def __init__(
-        self, recording: Recording, arm: Arm, floor: float, accept: Callable[[JointTrajectory], bool] | None
-    ) -> None:
+    def __init__(self, recording: Recording, arm: Arm, floor: float, accept: Accept | None) -> None:
         self.recorded = recording.time
-        # A fast hand moves further between two samples than joints can be followed with certainty.
-        recording = motion.refine(recording, _STEP_DISTANCE, _STEP_ANGLE)
+        recording = to_follow(recording)
         self.time = recording.time
         self.poses = motion.poses(recording)
         self.up_axis: Axis = recording.up_axis or "z"
@@ -221,7 +216,7 @@ class _Search:
 
     def _start(self, placement: Placement) -> Array | None:
         """Search joints at the first pose from which the whole path can be followed."""
-        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **_EFFORT)
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **EFFORT)
         share = joints.report.solved / len(self.time)
         if share > self.most_carried:
             self.most_carried = share

@@ -14,6 +14,7 @@ from dmpcpp.simulation.mujoco import MuJoCo
 from dmpcpp.simulation.objects import Cylinder, Friction
 from dmpcpp.simulation.obstacles import Box
 from dmpcpp.simulation.path_check import PathTolerances, contacts_along, path_checks
+from dmpcpp.simulation.reference import Reference, from_rest_to_rest
 from dmpcpp.simulation.second_opinion import AgreementTolerances, agreement
 from dmpcpp.simulation.simulator import Clearance, Contact, Simulator
 from dmpcpp.simulation.torque_scaling import torque_duration_factor
@@ -40,12 +41,14 @@ __all__ = [
     "MuJoCo",
     "ParallelGripper",
     "PathTolerances",
+    "Reference",
     "Simulator",
     "Tolerances",
     "Verdict",
     "agreement",
     "contacts_along",
     "execute",
+    "from_rest_to_rest",
     "judge",
     "path_checks",
     "torque_duration_factor",

@@ -78,6 +78,14 @@ def sample(
     return Reference(steps[1:-1] / rate, position, velocity, acceleration, slice(before, before + inside))
 
 
+def from_rest_to_rest(arm: Arm, joints: JointTrajectory, rate: float) -> Reference:
+    """Sample a trajectory at ``rate`` [Hz] with its lead-in and lead-out: what an arm that stands can be sent.
+
+    Velocities and accelerations are the derivatives of the quintic; both ends are at rest.
+    """
+    return sample(arm, joints, rate, settle=0.0, from_rest=True, consistent=False)
+
+
 def states_at(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
     """Position, velocity and acceleration at ``time`` (N,) s after the first sample, by the quintic.
 
