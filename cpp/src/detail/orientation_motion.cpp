@@ -63,7 +63,7 @@ class ExponentialRates {
 /// Back to length 1 to first order: the steps leave it by rounding only.
 void renormalise(Quaterniond& q) noexcept {
   q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
-  q.coeffs() = q.coeffs().unaryExpr(&flushed);  // on the way to the identity
+  q.coeffs() = q.coeffs().unaryExpr([](double v) { return flushed(v); });  // on the way to the identity
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ void OrientationMotion::advance_ude(double step, const double* start, const doub
 
   q_ = so3::exp_quaternion(step / 6.0 * (v1 + 2.0 * (v2 + v3) + v4)) * q_;
   eta_ += step / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
-  eta_ = eta_.unaryExpr(&flushed);
+  eta_ = eta_.unaryExpr([](double v) { return flushed(v); });
   goal_ = goal_end;
   e_ = error(goal_, q_);
 }
@@ -222,7 +222,7 @@ void OrientationMotion::advance_euler(double step, const double* end) noexcept {
   if (!settled_) goal_ = filtered_goal(step);
   e_ = error(goal_, q_);
   eta_ += step * acceleration(e_, eta_, end);
-  eta_ = eta_.unaryExpr(&flushed);
+  eta_ = eta_.unaryExpr([](double v) { return flushed(v); });
   q_ = so3::exp_quaternion(step * eta_) * q_;
   e_ = error(goal_, q_);
 }

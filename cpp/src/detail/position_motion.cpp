@@ -159,9 +159,15 @@ bool PositionMotion::look(double speed, double speed_rate, const double* forcing
 
 // Copied, not swapped: whoever keeps a pointer to an output reads the newest.
 void PositionMotion::publish() noexcept {
-  std::copy_n(y_.data(), y_.size(), position_.data());
-  std::copy_n(next_velocity_.data(), y_.size(), velocity_.data());
-  std::copy_n(next_acceleration_.data(), y_.size(), acceleration_.data());
+  for_axes(y_.size(), [&, y = y_.data(), v = next_velocity_.data(), a = next_acceleration_.data(),
+                       position = position_.data(), velocity = velocity_.data(),
+                       acceleration = acceleration_.data()](auto axes) {
+    for (Index d = 0; d < axes; ++d) {
+      position[d] = y[d];
+      velocity[d] = v[d];
+      acceleration[d] = a[d];
+    }
+  });
 }
 
 }  // namespace dmp::detail

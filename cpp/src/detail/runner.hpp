@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -91,7 +92,7 @@ class Runner {
   Status accepted(bool accepted) const noexcept { return accepted ? status_ : Status::invalid_input; }
   /// Whether the last node holds the forcing term at s, but for rounding.
   bool evaluated(double s) const noexcept { return std::abs(s - evaluated_at_) < 1e-13; }
-  double* node(Node which) noexcept { return nodes_.row(which).data(); }
+  double* node(Node which) noexcept { return nodes_.data() + row_[which] * nodes_.cols(); }
 
   void evaluate(Node which, double s, bool on) noexcept {
     if (on) return forcing_->evaluate(s, psi_.data(), node(which));
@@ -119,7 +120,7 @@ class Runner {
 
   void advance_once(double s, double piece, bool on) noexcept {
     if (on && evaluated(s)) {
-      std::copy_n(node(kEnd), nodes_.cols(), node(kStart));
+      std::swap(row_[kStart], row_[kEnd]);
     } else {
       evaluate(kStart, s, on);
     }
@@ -133,6 +134,7 @@ class Runner {
   Phase phase_;
   Motion motion_;
   RowMatrix nodes_;
+  std::array<Eigen::Index, 3> row_{0, 1, 2};  // of nodes_, by Node: the end of a step starts the next one
   Eigen::VectorXd psi_;
   double evaluated_at_ = kNowhere;  // the phase whose forcing stands in the last node
   bool force_after_end_;
