@@ -15,11 +15,10 @@
 #include "motions.hpp"
 #include "threads.hpp"
 
+#if COUNTS_MALLOC  // a sanitizer has a pthread_create of its own
 namespace {
 std::atomic<int> threads_left{INT_MAX};
 }
-
-#if COUNTS_MALLOC  // a sanitizer has a pthread_create of its own
 /// A machine that gives no more than `threads_left`.
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*work)(void*),
                               void* of) {
