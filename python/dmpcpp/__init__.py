@@ -17,6 +17,7 @@ from dmpcpp._core import so3 as so3
 _MODULES = frozenset(
     {
         "arms",
+        "doctor",
         "errors",
         "export",
         "generality",
@@ -25,11 +26,16 @@ _MODULES = frozenset(
         "learning",
         "metrics",
         "motion",
+        "planning",
         "plot",
         "recordings",
+        "report",
         "reproduction",
         "retarget",
+        "scene",
         "simulation",
+        "teaching",
+        "urdf_check",
     }
 )
 

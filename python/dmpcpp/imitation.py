@@ -36,7 +36,7 @@ from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement
 from dmpcpp.simulation import Check, ExecutionLog, Simulator
 
-__all__ = ["STAGES", "Imitation", "imitate", "learn", "write"]
+__all__ = ["STAGES", "Imitation", "clear_of_itself", "imitate", "learn", "write"]
 
 Progress = Callable[[str, float], None]
 """Called as progress(stage, share done): a name of STAGES and 0 to 1."""
@@ -163,7 +163,7 @@ def imitate(
     engines = _engines(simulator)
     tell("place", 0.0)
     recording = motion.continuous(recording)
-    clear = _clear_of_itself(arm, engines[0])
+    clear = clear_of_itself(arm, engines[0])
     placement = retarget.place(recording, arm, seed, scale=scale, accept=clear) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
@@ -215,7 +215,7 @@ def _noted(recording: Recording, model: PoseDmp, noise: Noise) -> Recording:
     return recording.with_(f"learned with its noise smoothed out: {noise.describe()} found, once placed")
 
 
-def _clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
+def clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
     """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
 
     def clear(joints: JointTrajectory) -> bool:

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli.config import save_config
 from dmpcpp.cli.group import FAILED, refuse_file
 from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.preparation import preparation_options, scale_range, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
 from dmpcpp.cli.tables import checks_table
+from dmpcpp.errors import MissingDependency
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
@@ -31,7 +33,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 default=default_out,
                 show_default=True,
                 type=click.Path(file_okay=False, path_type=Path),
-                help="Folder for model.json, plan.npz, joints.csv, picture.png, summary.json.",
+                help="Folder for the model, plan, joints, execution, picture, summary, config and report.",
             ),
             click.option(
                 "--seed",
@@ -49,6 +51,9 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 show_default=True,
                 type=click.Choice(["bullet", "mujoco", "both"]),
                 help="Physics engine; with both the two are compared.",
+            ),
+            click.option(
+                "--no-report", is_flag=True, help="Do not make report.html; `dmpcpp report` can make it later."
             ),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
@@ -100,7 +105,7 @@ def imitate(
     from dmpcpp import arms, motion, recordings
 
     preparation, smooth = taken_preparation(options)
-    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "as_json")}
+    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "no_report", "as_json")}
     recording = recordings.load(file, **taken_recording(options))
     recording = motion.prepare(recording, preparation)
     _carry_out(recording, arms.load(arm, base, tip), place=not no_place, scale=scale_range(scale), smooth=smooth, **run)
@@ -114,6 +119,7 @@ def _carry_out(
     seed: int,
     basis_count: int | None,
     simulator: str,
+    no_report: bool,
     as_json: bool,
     **how: Any,
 ) -> None:
@@ -125,12 +131,28 @@ def _carry_out(
             recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
         )
     imitation.write(run, out)
+    save_config(out / "config.toml")
+    missing = None if no_report else _report(out)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
     else:
         _print(run, out)
+    if missing:
+        click.echo(f"dmpcpp: no report: {missing}", err=True)
     if not run.ok:
         sys.exit(FAILED)
+
+
+def _report(out: Path) -> str | None:
+    """Make the report; return what is missing for it, if something is: the run itself is good without."""
+    from dmpcpp import report
+
+    try:
+        report.write(out)
+    except MissingDependency as error:
+        (out / "report.html").unlink(missing_ok=True)  # an older one would tell of another run
+        return str(error)
+    return None
 
 
 @contextmanager
