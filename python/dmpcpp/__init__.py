@@ -17,6 +17,7 @@ from dmpcpp._core import so3 as so3
 _MODULES = frozenset(
     {
         "arms",
+        "batch",
         "doctor",
         "errors",
         "export",

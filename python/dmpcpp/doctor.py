@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from dmpcpp.simulation.quiet import quiet
+
 __all__ = ["Diagnosis", "Part", "examine"]
 
 

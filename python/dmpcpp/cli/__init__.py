@@ -1,9 +1,10 @@
 """The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | report |
-check-urdf | doctor`.
+batch | check-urdf | doctor`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
 
+from dmpcpp.cli.batch import batch
 from dmpcpp.cli.checking import check_urdf, doctor
 from dmpcpp.cli.config import configurable
 from dmpcpp.cli.generality import generality
@@ -29,6 +30,7 @@ _COMMANDS = (
     generality,
     verify,
     report,
+    batch,
     check_urdf,
     doctor,
 )

@@ -36,7 +36,7 @@ def configurable(command: click.Command) -> click.Command:
 
 
 def save_config(path: Path) -> None:
-    """Write the arguments and options that the running command works with; paths absolute, to be repeated from anywhere."""
+    """Write what the running command works with; with absolute paths, so that it can be repeated from anywhere."""
     context = click.get_current_context()
     name = str(context.command.name)
     lines = [

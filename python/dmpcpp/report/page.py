@@ -17,7 +17,8 @@ body { margin: 0 auto; max-width: 70rem; padding: 1.5rem 2rem 4rem; color: var(-
 h1 { font-size: 1.55rem; line-height: 1.25; margin: 0 0 .8rem; }
 h2 { font-size: 1.12rem; margin: 2.4rem 0 .6rem; padding-top: .5rem; border-top: 1px solid var(--line); }
 p, ul, ol { margin: .5rem 0; max-width: 52rem; }
-.verdict { font-size: 1.12rem; padding: .7rem 1rem; border-left: .45rem solid; max-width: none; overflow-wrap: anywhere; }
+.verdict { font-size: 1.12rem; padding: .7rem 1rem; border-left: .45rem solid; max-width: none;
+  overflow-wrap: anywhere; }
 .good { color: var(--good); border-color: var(--good); background: #eef8f4; }
 .bad { color: var(--bad); border-color: var(--bad); background: #fdf1ec; }
 .wide { overflow-x: auto; }

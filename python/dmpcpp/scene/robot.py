@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import warnings
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -82,9 +83,11 @@ def _read(arm: Arm) -> tuple[URDF, bool]:
     def load(collision: bool) -> Any:
         drawn = {"build_scene_graph": not collision, "load_meshes": not collision}
         solid = {"build_collision_scene_graph": collision, "load_collision_meshes": collision}
-        return URDF.load(
-            io.BytesIO(arm.urdf.encode()), filename_handler=partial(_mesh_path, arm.folder), **drawn, **solid
-        )
+        with warnings.catch_warnings():  # yourdfpy uses calls of trimesh that are going out of use
+            warnings.simplefilter("ignore", DeprecationWarning)
+            return URDF.load(
+                io.BytesIO(arm.urdf.encode()), filename_handler=partial(_mesh_path, arm.folder), **drawn, **solid
+            )
 
     model = load(collision=True)
     if model.collision_scene is not None and model.collision_scene.geometry:
