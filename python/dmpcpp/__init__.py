@@ -37,6 +37,7 @@ _MODULES = frozenset(
         "simulation",
         "teaching",
         "urdf_check",
+        "view",
     }
 )
 

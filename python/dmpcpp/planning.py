@@ -140,7 +140,12 @@ def _joints(
     """Return the joints from `start`, or from the first start that keeps the arm clear of itself and the floor."""
     solver = InverseKinematics(arm)
     if start is not None:
-        return solver.follow(motion, start=np.asarray(start, dtype=np.float64))
+        joints = np.asarray(start, dtype=np.float64)
+        if joints.shape != (arm.joint_count,):
+            raise InvalidArgument(
+                f"start: shape {joints.shape}, expected ({arm.joint_count},): {', '.join(arm.joint_names)}."
+            )
+        return solver.follow(motion, start=joints)
     best = solver.follow(motion)
     if simulator is None or not best.report.complete or _clear(arm, best, simulator):
         return best

@@ -28,9 +28,9 @@ class Seen:
 
 
 def look(
-    path: Path, folder: Path, *, seconds: float, scripts: dict[str, str] | None = None, size: str = "1280,2000"
+    place: Path | str, folder: Path, *, seconds: float, scripts: dict[str, str] | None = None, size: str = "1280,2000"
 ) -> Seen:
-    """Open a file, wait, run scripts in it and take its picture; skips the test where Chromium is not installed."""
+    """Open a file or an address, wait, run scripts in it and take its picture; skips where there is no Chromium."""
     connect = pytest.importorskip("websockets.sync.client").connect
     with _chromium(folder, size) as address, connect(address, max_size=None) as socket:
         page = _Page(socket)
@@ -38,7 +38,7 @@ def look(
         page.session = page.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Network", "Runtime", "Log", "Page"):
             page.call(f"{domain}.enable")
-        page.call("Page.navigate", url=path.resolve().as_uri())
+        page.call("Page.navigate", url=place if isinstance(place, str) else place.resolve().as_uri())
         page.listen(seconds)
         seen = Seen()
         for name, script in (scripts or {}).items():

@@ -1,5 +1,5 @@
-"""The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | report |
-batch | check-urdf | doctor`.
+"""The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | view |
+report | batch | check-urdf | doctor`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -16,6 +16,7 @@ from dmpcpp.cli.learning import fit, plan
 from dmpcpp.cli.report import report
 from dmpcpp.cli.reproduction import reproduce
 from dmpcpp.cli.verification import verify
+from dmpcpp.cli.view import view
 
 __all__ = ["main"]
 
@@ -29,6 +30,7 @@ _COMMANDS = (
     grasp,
     generality,
     verify,
+    view,
     report,
     batch,
     check_urdf,
