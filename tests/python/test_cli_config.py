@@ -4,9 +4,12 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
+import numpy as np
 import pytest
 from command import run, write_hand
+from dmpcpp.report.record import RunRecord, write_record
 
 pytest.importorskip("pybullet_data")
 
@@ -40,8 +43,26 @@ def test_an_interrupted_run_leaves_nothing_half_written(tmp_path):
         text=True,
         start_new_session=True,
     )
-    time.sleep(4.0)
+    maps = Path(f"/proc/{process.pid}/maps")
+    while "pybullet" not in maps.read_text():  # in the middle of its work
+        assert process.poll() is None
+        time.sleep(0.05)
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=120)
     assert process.returncode == 130 and "interrupted" in said and "Traceback" not in said
     assert not list(tmp_path.rglob("*")), "something was left behind"
+
+
+def test_a_file_whose_writing_is_interrupted_is_not_there(tmp_path, monkeypatch):
+    from dmpcpp import arms
+
+    def interrupted(path, **arrays):
+        Path(path).write_bytes(b"half")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(np, "savez_compressed", interrupted)
+    nothing = np.zeros((2, 2))
+    record = RunRecord(arms.find("panda"), *[nothing] * 9, errors=())
+    with pytest.raises(KeyboardInterrupt):
+        write_record(tmp_path / "execution.npz", record)
+    assert list(tmp_path.iterdir()) == []
