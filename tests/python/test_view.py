@@ -87,6 +87,31 @@ def test_a_model_of_positions_is_refused():
         Session(dmpcpp.Dmp.fit(dmpcpp.Demonstration(time, time)), arms.find("panda"))
 
 
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_what_is_changed_on_the_page_is_shown_and_the_button_takes_it_back(session, model):
+    pytest.importorskip("viser")
+    pytest.importorskip("yourdfpy")
+    from dmpcpp.scene import serving
+    from dmpcpp.view.page import Page
+
+    goal = model.goal.copy()
+    goal[:3, 3] += [0.03, 0.03, 0.0]
+    with serving() as server:
+        page = Page(server, session, arms.find("panda"))
+        page.tick()
+        assert "**feasible**" in page._said.content
+        page.change(goal=goal, duration=1.5)
+        page.tick()
+        assert np.abs(page._shown.pose[-1] - goal).max() < 5e-3 and page._shown.time[-1] == 1.5
+        page.change(duration=0.0)
+        page.tick()
+        assert "refused" in page._said.content and "duration" in page._said.content
+        page._reset()
+        page.tick()
+        assert np.abs(page._shown.pose[-1] - model.goal).max() < 5e-3
+        assert np.allclose(page._goal_handle.position, model.goal[:3, 3])
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 def test_the_page_opens_without_a_complaint(model, tmp_path):

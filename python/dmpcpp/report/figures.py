@@ -131,7 +131,7 @@ def _motions(run: RunFolder) -> tuple[Array, Array, dict[str, Array]]:
 
 def _nearest(times: Array, wanted: Array) -> NDArray[np.intp]:
     right = np.searchsorted(times, wanted).clip(1, len(times) - 1)
-    return right - (wanted - times[right - 1] < times[right] - wanted)
+    return np.where(wanted - times[right - 1] < times[right] - wanted, right - 1, right)
 
 
 def _few(count: int) -> NDArray[np.intp]:

@@ -58,9 +58,14 @@ class ShownArm:
         self._root = server.scene.add_frame(name, show_axes=False)
         model, collision = _read(arm)
         self._others = _middle_of_other_joints(model, arm)
-        shapes = {"load_meshes": not collision, "load_collision_meshes": collision}
-        paint = {"collision_mesh_color_override": colour} if collision else {}
-        self._urdf = ViserUrdf(server, model, root_node_name=name, **shapes, **paint)
+        self._urdf = ViserUrdf(
+            server,
+            model,
+            root_node_name=name,
+            collision_mesh_color_override=colour,
+            load_meshes=not collision,
+            load_collision_meshes=collision,
+        )
         self._model, self._collision = model, collision
         self.move(np.zeros(arm.joint_count))
 

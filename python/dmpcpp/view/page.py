@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -106,8 +107,11 @@ class Page:
                 f"/{name}", scale=0.16 if name == "goal" else 0.11, position=pose[:3, 3], wxyz=quaternion(pose)
             )
             self._server.scene.add_label(f"/{name}/label", name)
-            handle.on_update(lambda event, name=name: self.change(**{name: _pose_of(event.target)}))
+            handle.on_update(partial(self._dragged, name))
             setattr(self, f"_{name}_handle", handle)
+
+    def _dragged(self, name: str, event: Any) -> None:
+        self.change(**{name: _pose_of(event.target)})
 
     def _add_panel(self) -> None:
         gui, begin = self._server.gui, self._choice
@@ -128,7 +132,9 @@ class Page:
         for name in ("goal", "start"):
             handle, pose = getattr(self, f"_{name}_handle"), getattr(begin, name)
             handle.position, handle.wxyz = pose[:3, 3], quaternion(pose)
-        self._time.value, self._gain.value, self._kernels.value = begin.duration, begin.alpha, begin.basis_count
+        self._time.value = begin.duration
+        self._gain.value = begin.alpha
+        self._kernels.value = begin.basis_count
         self._choice = begin
         self._changed.set()
 
