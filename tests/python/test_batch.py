@@ -5,10 +5,11 @@ import json
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from command import run, write_hand
 from dmpcpp import batch
 from dmpcpp.batch import many
 from dmpcpp.errors import FileError, InvalidArgument
+
+from tests.python.command import run, write_hand
 
 pytest.importorskip("pybullet_data")
 

@@ -3,8 +3,9 @@
 import json
 
 import pytest
-from command import run
 from dmpcpp import doctor, urdf_check
+
+from tests.python.command import run
 
 GOOD = """<robot name="two">
   <link name="base"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>

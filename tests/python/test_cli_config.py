@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command import run, write_hand
 from dmpcpp.report.record import RunRecord, write_record
+
+from tests.python.command import run, write_hand
 
 pytest.importorskip("pybullet_data")
 

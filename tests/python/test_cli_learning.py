@@ -5,8 +5,9 @@ import json
 import dmpcpp
 import numpy as np
 import pytest
-from command import run, write_hand
 from dmpcpp import arms, export
+
+from tests.python.command import run, write_hand
 
 pytest.importorskip("pybullet_data")
 

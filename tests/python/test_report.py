@@ -6,9 +6,10 @@ import re
 
 import numpy as np
 import pytest
-from browser import look
-from command import run, write_hand
 from dmpcpp import report
+
+from tests.python.browser import look
+from tests.python.command import run, write_hand
 
 pytest.importorskip("pybullet_data")
 pytest.importorskip("viser")

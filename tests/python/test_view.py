@@ -117,8 +117,9 @@ def test_what_is_changed_on_the_page_is_shown_and_the_button_takes_it_back(sessi
 def test_the_page_opens_without_a_complaint(model, tmp_path):
     pytest.importorskip("viser")
     pytest.importorskip("yourdfpy")
-    from browser import look
     from dmpcpp import view
+
+    from tests.python.browser import look
 
     addresses, told, stop = [], threading.Event(), threading.Event()
 

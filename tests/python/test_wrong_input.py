@@ -6,8 +6,9 @@ import sys
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from command import write_hand
 from dmpcpp.cli import main
+
+from tests.python.command import write_hand
 
 pytest.importorskip("pybullet_data")
 
