@@ -69,7 +69,7 @@ install_python_package() {
     "$python" -m venv "$venv" || stop "could not make $venv"
   fi
   echo "dmpcpp: building and installing the package into .venv (some minutes)"
-  "$venv/bin/pip" install -q --disable-pip-version-check "$root[sim,plot,formats,test]" ||
+  "$venv/bin/pip" install -q --disable-pip-version-check "$root[sim,mujoco,plot,formats,view,video,test]" ||
     stop "pip could not install the package: see above."
   echo "$stamp" >"$venv/dmpcpp.stamp"
 }

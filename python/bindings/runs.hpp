@@ -96,7 +96,8 @@ void def_model(py::class_<Dmp>& model) {
             return Dmp::fit(demonstrations, chosen);
           },
           py::arg("demonstrations"), py::arg("options") = py::none())
-      .def_property_readonly("options", &Dmp::options, "A copy: what the model was learned with.")
+      .def_property_readonly(
+          "options", [](const Dmp& dmp) { return dmp.options(); }, "A copy: what the model was learned with.")
       .def_property_readonly("duration", &Dmp::duration, "tau of the demonstration, s")
       .def_property_readonly(
           "weights", [](const Dmp& d) { return from_matrix(d.parameters().weights); },

@@ -17,6 +17,8 @@ from dmpcpp._core import so3 as so3
 _MODULES = frozenset(
     {
         "arms",
+        "batch",
+        "doctor",
         "errors",
         "export",
         "generality",
@@ -25,11 +27,17 @@ _MODULES = frozenset(
         "learning",
         "metrics",
         "motion",
+        "planning",
         "plot",
         "recordings",
+        "report",
         "reproduction",
         "retarget",
+        "scene",
         "simulation",
+        "teaching",
+        "urdf_check",
+        "view",
     }
 )
 

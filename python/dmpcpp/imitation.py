@@ -37,7 +37,7 @@ from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement
 from dmpcpp.simulation import Check, ExecutionLog, Simulator
 
-__all__ = ["STAGES", "Imitation", "PlacementPolicy", "imitate", "learn", "write"]
+__all__ = ["STAGES", "Imitation", "PlacementPolicy", "clear_of_itself", "imitate", "learn", "write"]
 
 Progress = Callable[[str, float], None]
 """Called as progress(stage, share done): a name of STAGES and 0 to 1."""
@@ -171,7 +171,7 @@ def imitate(
     recording = motion.continuous(recording)
     if place is True:
         place = partial(retarget.place, seed=seed, scale=scale)
-    placement = place(recording, arm, accept=_clear_of_itself(arm, engines[0])) if place else None
+    placement = place(recording, arm, accept=clear_of_itself(arm, engines[0])) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
     demonstration, noise = motion.demonstration(placed), motion.noise(placed)
@@ -222,7 +222,7 @@ def _noted(recording: Recording, model: PoseDmp, noise: Noise) -> Recording:
     return recording.with_(f"learned with its noise smoothed out: {noise.describe()} found, once placed")
 
 
-def _clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
+def clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
     """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
 
     def clear(joints: JointTrajectory) -> bool:

@@ -13,7 +13,7 @@ from dmpcpp import export
 
 pytest.importorskip("pybullet_data")
 
-FILES = {"model.json", "plan.npz", "joints.csv", "picture.png", "summary.json"}
+FILES = {"model.json", "plan.npz", "joints.csv", "execution.npz", "picture.png", "summary.json", "config.toml"}
 
 
 def run(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -34,7 +34,7 @@ def hand_path(count: int = 200, scale: float = 1.0) -> tuple[np.ndarray, np.ndar
 
 @pytest.mark.parametrize("arm", ["panda", "iiwa"])
 def test_demo_is_verified(arm, tmp_path):
-    done = run("demo", "--arm", arm, "--out", "out", cwd=tmp_path)
+    done = run("demo", "--arm", arm, "--out", "out", "--no-report", cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     out = tmp_path / "out"
     assert {path.name for path in out.iterdir()} == FILES
@@ -69,7 +69,7 @@ def test_a_motion_is_executed_by_the_engine_that_was_asked_for(simulator, arm, t
     pytest.importorskip("mujoco")
     time, rows = hand_path()
     np.savez(tmp_path / "hand.npz", time=time, pose=rows)
-    stated = ("imitate", "hand.npz", "--quat-order", "xyzw", "--arm", arm, "--simulator", simulator)
+    stated = ("imitate", "hand.npz", "--quat-order", "xyzw", "--arm", arm, "--simulator", simulator, "--no-report")
     done = run(*stated, "--json", "--out", "out", cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     summary = json.loads(done.stdout)
@@ -89,7 +89,7 @@ def test_the_same_seed_gives_the_same_files(tmp_path):
     np.savez(tmp_path / "hand.npz", time=time, pose=rows)
     texts = []
     for out in ("a", "b"):
-        done = run("imitate", "hand.npz", "--quat-order", "xyzw", "--out", out, "--json", cwd=tmp_path)
+        done = run("imitate", "hand.npz", "--quat-order", "xyzw", "--out", out, "--json", "--no-report", cwd=tmp_path)
         assert done.returncode == 0, done.stderr
         assert json.loads(done.stdout)["verdict"] == "pass"
         texts.append([(tmp_path / out / name).read_bytes() for name in ("model.json", "joints.csv", "summary.json")])
@@ -118,7 +118,7 @@ def test_a_users_own_file_goes_the_same_way(kind, tmp_path):
         poses[:, :3, 3] = rows[:, :3]
         np.save(tmp_path / "hand.npy", poses)
         stated = ["hand.npy", "--rate", "100"]
-    done = run("imitate", *stated, "--arm", "iiwa", "--out", "out", cwd=tmp_path)
+    done = run("imitate", *stated, "--arm", "iiwa", "--out", "out", "--no-report", cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
 
@@ -194,7 +194,7 @@ def test_an_unreachable_path_fails_its_checks_and_says_where(tmp_path):
     poses = np.tile(np.eye(4), (60, 1, 1))
     poses[:, :3, 3] = np.c_[np.linspace(0.4, 2.0, 60), np.zeros(60), np.full(60, 0.5)]
     np.save(tmp_path / "far.npy", poses)
-    done = run("imitate", "far.npy", "--rate", "30", "--no-place", "--out", "out", cwd=tmp_path)
+    done = run("imitate", "far.npy", "--rate", "30", "--no-place", "--no-report", "--out", "out", cwd=tmp_path)
     assert done.returncode == 3, done.stderr
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     failed = {check["name"] for check in summary["checks"] if not check["ok"]}

@@ -261,3 +261,12 @@ def test_a_phase_that_is_no_phase_is_refused():
     for phase in ([np.nan], [-1.0], [np.inf]):
         with pytest.raises(InvalidArgument, match=r"phase\[0\]"):
             model.forcing(phase)
+
+
+def test_the_options_of_a_model_are_a_copy_that_can_not_change_it():
+    time = np.linspace(0.0, 1.0, 50)
+    model = dmpcpp.Dmp.fit(dmpcpp.Demonstration(time, time**2))
+    before, options = model.rollout().position, model.options
+    options.alpha = 99.0
+    assert model.options.alpha != 99.0
+    assert np.array_equal(model.rollout().position, before)

@@ -14,7 +14,7 @@ from dmpcpp.reproduction.repetition import Statistics, random_motion, with_angle
 from scipy.spatial.transform import Rotation
 
 PICTURES = {f"rotation-{convention}-{seconds}s.png" for convention in ("source", "zyx") for seconds in (1, 5)}
-FILES = {"activations.png", "helix.png", "coordinates.png", "summary.json"} | PICTURES
+FILES = {"activations.png", "helix.png", "coordinates.png", "summary.json", "config.toml"} | PICTURES
 
 
 def command(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli.config import save_config
 from dmpcpp.cli.group import FAILED, refuse_file
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def generality(
     summary = library.summary(results)
     text = json.dumps(summary, indent=2, allow_nan=False)
     write_text(out / "summary.json", text + "\n")
+    save_config(out / "config.toml")
     if as_json:
         click.echo(text)
     else:

@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli.config import save_config
 from dmpcpp.cli.group import FAILED, refuse_file
 from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.placing import placing_options, taken_placing
 from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
 from dmpcpp.cli.tables import checks_table
+from dmpcpp.errors import MissingDependency
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
@@ -32,7 +34,7 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 default=default_out,
                 show_default=True,
                 type=click.Path(file_okay=False, path_type=Path),
-                help="Folder for model.json, plan.npz, joints.csv, picture.png, summary.json.",
+                help="Folder for the model, plan, joints, execution, picture, summary, config and report.",
             ),
             click.option(
                 "--seed",
@@ -58,6 +60,9 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
                 type=click.Choice(["ros2", "ros2-bag", "urscript"]),
                 help="Write what the robot is sent too, once verified: joints.yaml, joints_bag, joints.script. May be "
                 "repeated.",
+            ),
+            click.option(
+                "--no-report", is_flag=True, help="Do not make report.html; `dmpcpp report` can make it later."
             ),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
@@ -105,7 +110,8 @@ def imitate(
 
     preparation, smooth = taken_preparation(options)
     placing = taken_placing(options)
-    run = {name: options.pop(name) for name in ("out", "seed", "basis_count", "simulator", "formats", "as_json")}
+    names = ("out", "seed", "basis_count", "simulator", "formats", "no_report", "as_json")
+    run = {name: options.pop(name) for name in names}
     recording = recordings.load(file, **taken_recording(options))
     recording = motion.prepare(recording, preparation)
     _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, **placing, **run)
@@ -120,6 +126,7 @@ def _carry_out(
     basis_count: int | None,
     simulator: str,
     formats: tuple[str, ...],
+    no_report: bool,
     as_json: bool,
     **how: Any,
 ) -> None:
@@ -132,14 +139,30 @@ def _carry_out(
             recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
         )
     sent = imitation.write(run, out, formats)
+    save_config(out / "config.toml")
+    missing = None if no_report else _report(out)
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
     else:
         _print(run, out)
         if formats:
             click.echo(f"for the robot: {', '.join(sent)}" if sent else "for the robot: nothing, as it is not verified")
+    if missing:
+        click.echo(f"dmpcpp: no report: {missing}", err=True)
     if not run.ok:
         sys.exit(FAILED)
+
+
+def _report(out: Path) -> str | None:
+    """Make the report; return what is missing for it, if something is: the run itself is good without."""
+    from dmpcpp import report
+
+    try:
+        report.write(out)
+    except MissingDependency as error:
+        (out / "report.html").unlink(missing_ok=True)  # an older one would tell of another run
+        return str(error)
+    return None
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from dmpcpp.cli.config import save_config
 from dmpcpp.cli.group import FAILED, refuse_file
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ def reproduce(repeat: int, seed: int, out: Path, as_json: bool) -> None:
     with _progress(as_json or not repeat) as progress:
         run = reproduction.reproduce(repeat, seed, progress)
     reproduction.write(run, out)
+    save_config(out / "config.toml")
     if as_json:
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
     else:

@@ -7,7 +7,9 @@ differs in its stroke as well.
 """
 
 from dmpcpp.plot.execution import ErrorCurve, angle_error, paths, picture, position_error
-from dmpcpp.plot.page import figure, save
+from dmpcpp.plot.learning import phase, spread
+from dmpcpp.plot.page import figure, save, svg
+from dmpcpp.plot.robot import joint_shares
 from dmpcpp.plot.series import activations, coordinates, errors_over_noise, path_3d, rotation_entries, series_errors
 
 __all__ = [
@@ -17,11 +19,15 @@ __all__ = [
     "coordinates",
     "errors_over_noise",
     "figure",
+    "joint_shares",
     "path_3d",
     "paths",
+    "phase",
     "picture",
     "position_error",
     "rotation_entries",
     "save",
     "series_errors",
+    "spread",
+    "svg",
 ]

@@ -59,6 +59,17 @@ def save(page: Figure, path: str | os.PathLike[str]) -> Path:
     return path
 
 
+def svg(page: Figure) -> str:
+    """Return the page as an SVG element for HTML: text stays text, and the same page gives the same element."""
+    import matplotlib as mpl
+
+    text = io.StringIO()
+    with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "dmpcpp", "font.family": "sans-serif"}):
+        page.savefig(text, format="svg", metadata={"Date": None})
+    drawn = text.getvalue()
+    return drawn[drawn.index("<svg") :]
+
+
 def plain(axes: Axes) -> Axes:
     """Give 2-D axes the look of the pages: a faint grid, no box, small ticks."""
     axes.grid(color=GRID, linewidth=0.6)

@@ -153,7 +153,7 @@ def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: b
     for visual in [] if visuals else link.findall("visual"):
         link.remove(visual)
     for mesh in link.iter("mesh"):
-        mesh.set("filename", str(_find_mesh(mesh.get("filename", ""), urdf_folder, link.get("name", ""))))
+        mesh.set("filename", str(find_mesh(mesh.get("filename", ""), urdf_folder, link.get("name", ""))))
     for collision in link.findall("collision"):
         _split_into_convex_pieces(link, collision, folder)
 
@@ -214,7 +214,7 @@ def _write_inertia(element: ET.Element, inertia: NDArray[np.float64]) -> None:
         element.set(name, repr(float(inertia[row, column])))
 
 
-def _find_mesh(filename: str, folder: str, link: str) -> Path:
+def find_mesh(filename: str, folder: str, link: str = "") -> Path:
     """Where a mesh is: by its own path, or below the URDF's folder or one above it (``package://`` paths)."""
     path = Path(filename.removeprefix("file://").removeprefix("package://"))
     start = Path(folder or ".").resolve()

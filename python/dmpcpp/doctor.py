@@ -1,0 +1,134 @@
+"""What is installed, what is not, and what each part is for."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import platform
+import sys
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from dmpcpp.simulation.quiet import quiet
+
+__all__ = ["Diagnosis", "Part", "examine"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Something that is there or not.
+
+    Attributes
+    ----------
+    name : str
+    ok : bool
+    found : str
+        Its version, or why it does not work.
+    purpose : str
+        What it is for.
+    to_do : str
+        What to do where it is missing.
+    needed : bool
+        Whether the main job (`dmpcpp demo`) needs it.
+    """
+
+    name: str
+    ok: bool
+    found: str
+    purpose: str
+    to_do: str
+    needed: bool
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """All parts; `ok` where all that the main job needs are there."""
+
+    parts: tuple[Part, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether the main job can be done."""
+        return all(part.ok for part in self.parts if part.needed)
+
+    def summary(self) -> dict[str, Any]:
+        """Return what `dmpcpp doctor --json` prints."""
+        return {"ok": self.ok, "parts": [asdict(part) for part in self.parts]}
+
+
+_PACKAGES = (  # module, distribution, what for, extra, needed
+    ("numpy", "numpy", "arrays", "", True),
+    ("scipy", "scipy", "preparing recordings, metrics", "", True),
+    ("click", "click", "this command line", "", True),
+    ("rich", "rich", "tables and progress bars", "", True),
+    ("pybullet", "pybullet", "physics, and the URDFs of the known arms", "sim", True),
+    ("matplotlib", "matplotlib", "pictures and the report's figures", "plot", True),
+    ("mujoco", "mujoco", "a second physics engine: --simulator mujoco, both", "mujoco", False),
+    ("viser", "viser", "the moving arm in reports, dmpcpp view", "view", False),
+    ("yourdfpy", "yourdfpy", "the arm's shapes in reports, dmpcpp view", "view", False),
+    ("rosbags", "rosbags", "ROS bags and MCAP recordings", "formats", False),
+    ("imageio_ffmpeg", "imageio-ffmpeg", "--video", "video", False),
+    ("distributed", "distributed", "batches on a cluster", "cluster", False),
+)
+
+
+def examine() -> Diagnosis:
+    """Import every package that some part of dmpcpp uses, and try the core and the kinematics."""
+    return Diagnosis(
+        (
+            _python(),
+            _tried("core", _core, "learning, rollout"),
+            *map(_package, _PACKAGES),
+            _tried("known arms", _arms, "--arm panda, iiwa, xarm6"),
+        )
+    )
+
+
+def _python() -> Part:
+    ok = sys.version_info >= (3, 11)
+    return Part("python", ok, platform.python_version(), "everything", "Install Python 3.11 or newer.", True)
+
+
+def _package(wanted: tuple[str, str, str, str, bool]) -> Part:
+    module, distribution, purpose, extra, needed = wanted
+    to_do = f'pip install "dmpcpp[{extra}]"' if extra else f"pip install {distribution}"
+    try:
+        with quiet():  # PyBullet tells its build time
+            importlib.import_module(module)
+    except Exception as error:  # a broken package may raise anything
+        return Part(distribution, False, f"{type(error).__name__}: {error}", purpose, to_do, needed)
+    return Part(distribution, True, _version(distribution), purpose, "", needed)
+
+
+def _version(distribution: str) -> str:
+    try:
+        return importlib.metadata.version(distribution)
+    except importlib.metadata.PackageNotFoundError:
+        return "installed"
+
+
+def _tried(name: str, attempt: Callable[[], str], purpose: str) -> Part:
+    try:
+        return Part(name, True, attempt(), purpose, "", True)
+    except Exception as error:
+        return Part(name, False, f"{type(error).__name__}: {error}", purpose, 'pip install "dmpcpp[sim]"', True)
+
+
+def _core() -> str:
+    """Learn a straight line and arrive at its end."""
+    import numpy as np
+
+    from dmpcpp import Demonstration, Dmp, __version__
+
+    time = np.linspace(0.0, 1.0, 50)
+    end = Dmp.fit(Demonstration(time, time**2)).rollout(dt=0.01).position[-1, 0]
+    if not abs(end - 1.0) < 1e-2:
+        raise ArithmeticError(f"a learned motion ends at {end:.4f}, expected 1; install dmpcpp anew")
+    return str(__version__)
+
+
+def _arms() -> str:
+    from dmpcpp import arms
+
+    return ", ".join(f"{name} ({arms.find(name).joint_count} joints)" for name in arms.KNOWN)

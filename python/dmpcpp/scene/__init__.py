@@ -1,0 +1,11 @@
+"""An arm in a browser, by viser: shown at any joints, beside paths; as a page that stands alone or served live.
+
+viser and yourdfpy (the extra `view`) are imported when they are first needed; without them `MissingDependency` is
+raised. Shown are the collision meshes: a tenth of the size of what is made for rendering, and what is checked.
+"""
+
+from dmpcpp.scene.replay import replay_page
+from dmpcpp.scene.robot import ShownArm
+from dmpcpp.scene.server import serving
+
+__all__ = ["ShownArm", "replay_page", "serving"]

@@ -1,0 +1,133 @@
+"""From recordings to one model, and how well it reproduces them.
+
+>>> from dmpcpp import recordings, teaching
+>>> lesson = teaching.teach([recordings.clip("dance_b")])                 # doctest: +SKIP
+>>> lesson.model, lesson.fit.rmse                                         # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dmpcpp import motion, retarget, simulation
+from dmpcpp._core import Arm, FitReport, PoseDemonstration, PoseDmp, assess
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.imitation import clear_of_itself
+from dmpcpp.learning import learn, reproduction, reproduction_checks
+from dmpcpp.motion import Noise
+from dmpcpp.recordings import Recording
+from dmpcpp.simulation import Check
+
+__all__ = ["Lesson", "placed", "teach"]
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """A model and what it was learned from.
+
+    Attributes
+    ----------
+    recordings : tuple of Recording
+    demonstrations : tuple of PoseDemonstration
+    model : PoseDmp
+    fit : FitReport
+    noise : tuple of Noise
+        Found in each recording.
+    checks : tuple of Check
+        Whether a single recording is reproduced; empty where several were learned together, which no model can
+        reproduce all.
+    """
+
+    recordings: tuple[Recording, ...]
+    demonstrations: tuple[PoseDemonstration, ...]
+    model: PoseDmp
+    fit: FitReport
+    noise: tuple[Noise, ...]
+    checks: tuple[Check, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every check held."""
+        return all(check.ok for check in self.checks)
+
+    def summary(self) -> dict[str, Any]:
+        """Return what `dmpcpp fit --json` prints; m, rad, s."""
+        return {
+            "verdict": "pass" if self.ok else "fail",
+            "checks": [check.to_dict() for check in self.checks],
+            "basis_count": self.model.options.basis_count,
+            "duration": self.model.duration,
+            "start": self.model.start.tolist(),
+            "goal": self.model.goal.tolist(),
+            "fit": {
+                "rmse": self.fit.rmse.tolist(),
+                "largest": self.fit.largest.tolist(),
+                "suggested_basis_count": self.fit.suggested_basis_count,
+                "warnings": list(self.fit.warnings),
+            },
+            "recordings": [
+                {
+                    "source": recording.source,
+                    "body": recording.body,
+                    "samples": len(recording),
+                    "duration": recording.duration,
+                    "noise": {"position": noise.position, "angle": noise.angle},
+                    "history": list(recording.history),
+                }
+                for recording, noise in zip(self.recordings, self.noise, strict=True)
+            ],
+        }
+
+
+def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, smooth: bool = True) -> Lesson:
+    """Learn one recording, or several of one motion together.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        At least one; all in one frame.
+    basis_count : int, optional
+        Kernels; by default as many as each recording alone needs, the most of them.
+    smooth : bool
+        Whether noise that is found may be smoothed out.
+
+    Raises
+    ------
+    InvalidArgument
+        There is none, or one that can not be learned.
+    """
+    if not recordings:
+        raise InvalidArgument("recordings: none, expected at least one.")
+    kept = tuple(motion.continuous(recording) for recording in recordings)
+    demonstrations = tuple(map(motion.demonstration, kept))
+    noise = tuple(map(motion.noise, kept))
+    alone = [
+        learn(demonstration, basis_count, noise=found, smooth=smooth)
+        for demonstration, found in zip(demonstrations, noise, strict=True)
+    ]
+    most = max(alone, key=lambda model: model.options.basis_count)
+    if len(alone) == 1:
+        model, checks = most, reproduction_checks(reproduction(most, demonstrations[0]), noise[0])
+    else:
+        model, checks = PoseDmp.fit(list(demonstrations), most.options), ()
+    return Lesson(kept, demonstrations, model, assess(model, list(demonstrations)), noise, tuple(checks))
+
+
+def placed(
+    recordings: Sequence[Recording], arm: Arm, *, scale: tuple[float, float] = (0.25, 1.0), seed: int = 0
+) -> list[Recording]:
+    """Place the first recording in an arm's workspace, clear of the arm itself, and the others by the same placement.
+
+    Raises
+    ------
+    InvalidArgument
+        No placement carries the first recording.
+    MissingDependency
+        PyBullet, in whose geometry contacts are looked at, is not installed.
+    """
+    whole = [motion.continuous(recording) for recording in recordings]
+    clear = clear_of_itself(arm, simulation.Bullet)
+    placement = retarget.place(whole[0], arm, seed, scale=scale, accept=clear)
+    return [placement.apply_to(recording) for recording in whole]

@@ -1,0 +1,49 @@
+"""The documentation: built without a warning, every page of it reachable, and what it promises there."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from dmpcpp.cli import main
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+
+
+@pytest.mark.slow
+def test_the_documentation_is_built_without_a_warning(tmp_path):
+    for package in ("sphinx", "myst_parser", "furo"):
+        pytest.importorskip(package)
+    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", DOCS, tmp_path / "html"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    page = (tmp_path / "html" / "python-api.html").read_text()
+    for name in ("PoseDmp", "imitate", "imitate_many", "Session", "replay_page"):
+        assert f'<span class="pre">{name}</span>' in page, name
+
+
+def test_every_page_stands_in_the_index():
+    listed = set(re.findall(r"^([a-z-]+)$", (DOCS / "index.md").read_text(), flags=re.M))
+    assert {path.stem for path in DOCS.glob("*.md")} - {"index"} <= listed
+
+
+def test_every_command_is_described():
+    text = (DOCS / "command-line.md").read_text()
+    for name in main.commands:
+        assert f"| `{name}` |" in text
+
+
+def test_every_public_header_stands_in_the_reference():
+    text = (DOCS / "cpp-api.md").read_text()
+    for header in (DOCS.parent / "cpp" / "include" / "dmp").glob("*.hpp"):
+        assert f"include/dmp/{header.name}" in text
+
+
+def test_every_option_that_the_guide_types_exists():
+    """Commands in the guide are parsed by the program itself."""
+    for page in ("tutorial.md", "command-line.md", "troubleshooting.md"):
+        for line in re.findall(r"^dmpcpp (.+)$", (DOCS / page).read_text(), flags=re.M):
+            name, *rest = line.split()
+            options = {option for parameter in main.commands[name].params for option in parameter.opts}
+            assert {word for word in rest if word.startswith("--")} <= options | {"--help"}, line

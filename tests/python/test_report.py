@@ -1,0 +1,97 @@
+"""The report of a run: one page that is right, small, silent, and shows the arm."""
+
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+from dmpcpp import report
+
+from tests.python.browser import look
+from tests.python.command import run, write_hand
+
+pytest.importorskip("pybullet_data")
+pytest.importorskip("viser")
+pytest.importorskip("yourdfpy")
+pytest.importorskip("matplotlib")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The folder of a run with its report."""
+    path = tmp_path_factory.mktemp("run")
+    write_hand(path / "hand.npz")
+    done = run("imitate", "hand.npz", "--quat-order", "xyzw", "--out", "out", cwd=path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return path / "out"
+
+
+def test_the_page_is_one_file_under_five_megabytes_that_names_no_other(folder):
+    page = (folder / "report.html").read_text()
+    assert len(page.encode()) <= 5e6
+    outside = re.sub(r'srcdoc="[^"]*"', "", page)
+    outside = re.sub(r"<metadata>.*?</metadata>", "", outside, flags=re.S)
+    assert not re.search(r'(src|href)="(?!data:|#)', outside)
+
+
+def test_verdict_and_checks_come_first_and_are_those_of_the_summary(folder):
+    page, summary = (folder / "report.html").read_text(), json.loads((folder / "summary.json").read_text())
+    assert page.index('id="verdict"') < page.index("<iframe") < page.index("<svg")
+    assert "<b>Verified</b>" in page
+    for check in summary["checks"]:
+        assert f"<td>{check['name']}</td>" in page
+    assert page.count("<svg") == 7
+    for line in summary["recording"]["history"]:
+        assert line.split("(")[0].strip() in page
+
+
+def test_the_page_says_how_to_repeat_the_run(folder):
+    page = (folder / "report.html").read_text()
+    assert "dmpcpp imitate --config config.toml" in page and "[imitate]" in page
+
+
+def test_the_page_is_made_anew_from_the_folder(folder):
+    first = (folder / "report.html").read_text()
+    done = run("report", "out", "--json", cwd=folder.parent)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["verdict"] == "pass"
+    scene = re.compile(r'srcdoc="[^"]*"')
+    assert scene.sub("", (folder / "report.html").read_text()) == scene.sub("", first)
+
+
+def test_a_failed_run_says_so_first(folder, tmp_path):
+    for name in ("model.json", "plan.npz", "execution.npz"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    summary = json.loads((folder / "summary.json").read_text())
+    summary["verdict"], summary["checks"][3]["ok"] = "fail", False
+    (tmp_path / "summary.json").write_text(json.dumps(summary))
+    page = report.write(tmp_path).read_text()
+    assert "<b>Not verified</b>: 1 of" in page
+    assert page.index('<tr class="failed">') < page.index('<tr class="held">')
+
+
+def test_a_folder_that_is_not_whole_is_refused_by_what_is_missing(tmp_path):
+    (tmp_path / "half").mkdir()
+    (tmp_path / "half" / "summary.json").write_text("{}")
+    done = run("report", "half", cwd=tmp_path)
+    assert done.returncode == 2 and "model.json, plan.npz, execution.npz" in done.stderr
+
+
+def test_chromium_shows_the_arm_without_a_request_or_a_complaint(folder, tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    ndimage = pytest.importorskip("scipy.ndimage")
+    show = "document.querySelector('iframe').scrollIntoView(); 1"
+    place = "(b => [b.x, b.y, b.right, b.bottom])(document.querySelector('iframe').getBoundingClientRect())"
+    seen = look(folder / "report.html", tmp_path, seconds=15, scripts={"show": show, "place": place}, size="1280,1000")
+    assert seen.requests == [(folder / "report.html").resolve().as_uri()]
+    assert seen.complaints == []
+    picture = image.open(io.BytesIO(seen.picture)).convert("RGB").crop(tuple(map(int, seen.values["place"])))
+    picture.save(tmp_path / "scene.png")
+    pixels = np.asarray(picture).astype(int)
+    pixels = pixels[: int(0.9 * len(pixels)), pixels.shape[1] // 3 :]  # beside a notice, above the play bar
+    grey = (np.ptp(pixels, axis=2) < 25) & (pixels.mean(axis=2) > 90) & (pixels.mean(axis=2) < 225)
+    solid = ndimage.binary_erosion(grey, iterations=3)  # the floor's lines are thinner
+    assert solid.sum() > 500, f"{solid.sum()} pixels of the arm"
+    red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
+    assert ((red > green + 15) & (green > blue + 30)).sum() > 100, "the hand's path is not there"

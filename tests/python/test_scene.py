@@ -1,0 +1,43 @@
+"""The arm in a scene: where it is drawn is where KDL says it is."""
+
+import numpy as np
+import pytest
+from dmpcpp import Arm, arms
+from dmpcpp.errors import InvalidArgument
+
+pytest.importorskip("pybullet_data")
+pytest.importorskip("viser")
+pytest.importorskip("yourdfpy")
+
+
+def drawn_tip(shown, arm):
+    """The tip in the scene's world: the robot's root as it stands, then yourdfpy's kinematics."""
+    from scipy.spatial.transform import Rotation
+
+    root = np.eye(4)
+    root[:3, 3] = shown._root.position
+    root[:3, :3] = Rotation.from_quat(np.asarray(shown._root.wxyz)[[1, 2, 3, 0]]).as_matrix()
+    return root @ shown._model.get_transform(arm.tip, shown._model.base_link, collision_geometry=shown._collision)
+
+
+@pytest.mark.parametrize("name, base", [("panda", ""), ("iiwa", ""), ("xarm6", ""), ("panda", "panda_link2")])
+def test_the_arm_is_drawn_where_its_kinematics_say(name, base):
+    from dmpcpp.scene import ShownArm, serving
+
+    arm = arms.find(name)
+    if base:
+        arm = Arm.from_urdf(arm.urdf, base=base, tip=arm.tip, folder=arm.folder)
+    joints = 0.5 * (arm.lower + arm.upper) + 0.2 * np.arange(arm.joint_count) / arm.joint_count
+    with serving() as server:
+        shown = ShownArm(server, arm)
+        shown.move(joints)
+        assert np.abs(drawn_tip(shown, arm) - arm.forward_kinematics(joints)).max() < 1e-5
+
+
+def test_joints_that_are_too_few_are_refused():
+    from dmpcpp.scene import ShownArm, serving
+
+    with serving() as server:
+        shown = ShownArm(server, arms.find("panda"))
+        with pytest.raises(InvalidArgument, match=r"joints: shape \(2,\), expected \(7,\)"):
+            shown.move([0.0, 0.0])
