@@ -52,6 +52,7 @@ Engine = Callable[..., Simulator]
 STAGES = ("place", "learn", "solve", "execute")
 
 _SAMPLES_PER_KERNEL = 10
+_INSET = 2e-3  # rad or m, kept off the position limits where the path allows
 _RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
 
 
@@ -232,16 +233,33 @@ def clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], boo
     return clear
 
 
+def _follow(path: PoseTrajectory, arm: Arm, start: NDArray[np.float64] | None) -> JointTrajectory:
+    """Return the joints along a path, off the limits if that can be: between samples a spline swings farther than they.
+
+    The placement's joints are a suggestion: where nothing leads on from them, the search is free.
+    """
+    for limited in (_inset(arm), arm):
+        solver = InverseKinematics(limited)
+        for begin in (None,) if start is None else (np.clip(start, limited.lower, limited.upper), None):
+            joints = solver.follow(path, start=begin)
+            if joints.report.complete:
+                return joints
+    return joints
+
+
+def _inset(arm: Arm) -> Arm:
+    span = arm.upper - arm.lower
+    room = np.where(np.isfinite(span), np.minimum(_INSET, 0.01 * span), 0.0)
+    return arm.with_limits(lower=arm.lower + room, upper=arm.upper - room)
+
+
 def _solve(
     model: PoseDmp, arm: Arm, start: NDArray[np.float64] | None, engine: Engine
 ) -> tuple[PoseTrajectory, JointTrajectory, float]:
     """Return plan, joints and slowdown: the path as demonstrated, the duration as the joint limits ask for."""
     samples = _SAMPLES_PER_KERNEL * max(model.options.basis_count, 100)
     dt = model.duration / samples
-    solver = InverseKinematics(arm)
-    joints = solver.follow(model.rollout(dt=dt), start=start)
-    if start is not None and not joints.report.complete:  # the placement's joints were a suggestion
-        joints = solver.follow(model.rollout(dt=dt))
+    joints = _follow(model.rollout(dt=dt), arm, start)
     slowdown = max(
         1.0,
         _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)),

@@ -13,7 +13,8 @@ import click
 from dmpcpp.cli.config import save_config
 from dmpcpp.cli.group import FAILED, refuse_file
 from dmpcpp.cli.options import arm_options
-from dmpcpp.cli.preparation import preparation_options, scale_range, taken_preparation
+from dmpcpp.cli.placing import scale_range
+from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
 from dmpcpp.cli.tables import checks_table
 from dmpcpp.errors import InvalidArgument

@@ -55,7 +55,7 @@ def placing_options(command: Callable[..., None]) -> Callable[..., None]:
 def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
     """Take the options out of a command's arguments: `place` and `scale` of `imitation.imitate`."""
     no_place: bool = options.pop("no_place")
-    scale = _scale_range(options.pop("scale"))
+    scale = scale_range(options.pop("scale"))
     given = {name: options.pop(name) for name in (*_ANCHORS, "shoulder", "yaw", "tool_rotation")}
     given = {name: value for name, value in given.items() if value is not None}
     _consistent(given, no_place)
@@ -115,7 +115,7 @@ def _numbers(name: str, text: str, *counts: int) -> NDArray[Any]:
     return values
 
 
-def _scale_range(text: str | None) -> tuple[float, float]:
+def scale_range(text: str | None) -> tuple[float, float]:
     """Return the smallest and the largest scale: '0.5' or '0.4:0.8'; 0.25 to 1 unless given."""
     if text is None:
         return _SCALE
