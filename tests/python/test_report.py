@@ -78,6 +78,7 @@ def test_a_folder_that_is_not_whole_is_refused_by_what_is_missing(tmp_path):
     assert done.returncode == 2 and "model.json, plan.npz, execution.npz" in done.stderr
 
 
+@pytest.mark.slow  # WebGL drawn by the processor: on a loaded machine the scene comes after any wait
 def test_chromium_shows_the_arm_without_a_request_or_a_complaint(folder, tmp_path):
     image = pytest.importorskip("PIL.Image")
     ndimage = pytest.importorskip("scipy.ndimage")
