@@ -26,7 +26,7 @@ class DMP_EXPORT GaussianBasis {
     double factor() const noexcept;  ///< exp(exponent), itself never denormal
   };
 
-  /// Throws InvalidArgument unless count is 1 to 100000, 0 < alpha_x <= 50 and 0 < overlap <= 700. Neighbours
+  /// Throws InvalidArgument unless count is 1 to 100000, 0 < alpha_x <= 50 and 0 < overlap <= 300. Neighbours
   /// cross at exp(-overlap / 4).
   static GaussianBasis equal_in_time(int count, double alpha_x, double overlap);
   static GaussianBasis source(int count, double alpha_x);
