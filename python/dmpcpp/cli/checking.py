@@ -66,7 +66,7 @@ def doctor(as_json: bool) -> None:
             table.add_column(title)
         for part in found.parts:
             mark = "[green]ok[/]" if part.ok else "[bold red]missing[/]" if part.needed else "[yellow]missing[/]"
-            table.add_row(mark, *map(escape, (part.name, part.found, part.purpose, part.to_do)))
+            table.add_row(mark, *map(escape, (part.name, part.found, part.purpose, "" if part.ok else part.to_do)))
         console = Console(highlight=False)
         console.print(table)
         console.print("ready" if found.ok else "not ready: install what is missing in red")
