@@ -71,14 +71,16 @@ Eigen::VectorXd GaussianBasis::centers() const {
 
 GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi) const noexcept {
   const Place at = place(s);
+  const double offset = s * (count_ - 1) - at.middle;
+  const double up = std::exp(std::clamp(2.0 * overlap_ * offset, kSmallestExponent, -kSmallestExponent));
   double* const middle = psi + at.below;
   *middle = 1.0;
   double power = 1.0;
-  for (int k = 1; k <= at.above; ++k) middle[k] = (power *= at.up) * table_[static_cast<std::size_t>(k)];
-  const double down = 1.0 / at.up;
+  for (int k = 1; k <= at.above; ++k) middle[k] = (power *= up) * table_[static_cast<std::size_t>(k)];
+  const double down = 1.0 / up;
   power = 1.0;
   for (int k = 1; k <= at.below; ++k) middle[-k] = (power *= down) * table_[static_cast<std::size_t>(k)];
-  return {at.middle - at.below, at.below + at.above + 1, -overlap_ * at.offset * at.offset};
+  return {at.middle - at.below, at.below + at.above + 1, -overlap_ * offset * offset};
 }
 
 GaussianBasis::Window GaussianBasis::source_window(double s, double* psi) const noexcept {

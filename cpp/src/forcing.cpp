@@ -2,6 +2,7 @@
 #include <dmp/forcing.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -15,8 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-Index padded(Index dimension) { return (dimension + 1) / 2 * 2; }
 
 /// f = x (sum psi_k rows_k) / (sum psi_k)
 void weighted_mean(const double* psi, int count, const double* rows, Index columns, double x,
@@ -33,71 +32,103 @@ void weighted_mean(const double* psi, int count, const double* rows, Index colum
 }  // namespace
 
 ForcingTerm::ForcingTerm(const GaussianBasis& basis, const RowMatrix& weights)
-    : basis_(basis),
-      dimension_(weights.cols()),
-      rows_(RowMatrix::Zero(weights.rows(), padded(weights.cols()))) {
+    : basis_(basis), weights_(weights) {
   if (weights.rows() != basis.count())
     throw InvalidArgument("weights: " + std::to_string(weights.rows()) +
                           " rows, expected one for each of the " + std::to_string(basis.count()) +
                           " kernels.");
   if (weights.cols() == 0 || !weights.allFinite())
     throw InvalidArgument("weights: empty or not finite, expected finite numbers (N x dims).");
-  rows_.leftCols(dimension_) = weights;
 }
 
-/// The kernels equal in time, generated while they are summed up: those above and below the nearest one side
-/// by side, with a number of columns known when this is compiled.
-template <int Columns>
-void ForcingTerm::evaluate_equal_in_time(double s, double* f) const noexcept {
-  using Row = Eigen::Array<double, Columns, 1>;
-  using AlignedRow = Eigen::Map<const Row, Eigen::Aligned16>;
-  const GaussianBasis::Place at = basis_.place(s);
+/// The kernels equal in time, generated while they are summed up, for two phases side by side that are
+/// nearest to the same kernel: one phase in either half of a register, the number of axes known when this is
+/// compiled.
+template <int Axes>
+void ForcingTerm::evaluate_side_by_side(const GaussianBasis::Place& at, double s, double next, double* f,
+                                        double* f_next) const noexcept {
+  using Pair = Eigen::Array2d;
+  const GaussianBasis::PhasePair pair = basis_.pair(s, next, at.middle);
+  const Pair up = pair.ratio;
+  const Pair down = up.inverse();
   const double* const table = basis_.table_.data();
-  const double* const middle = rows_.data() + at.middle * Columns;
-  const Eigen::Array2d ratio(at.up, 1.0 / at.up);
-  Eigen::Array2d power = ratio;
-  Eigen::Array2d totals(1.0, 0.0);
-  Row sum = AlignedRow(middle);
+  const double* const middle = weights_.data() + at.middle * Axes;
+  std::array<Pair, Axes> sum;
+  for (int d = 0; d < Axes; ++d) sum[d] = Pair::Constant(middle[d]);
+  Pair total = Pair::Ones();
+  Pair up_power = up;
+  Pair down_power = down;
   int k = 1;
-  for (; k <= std::min(at.above, at.below); ++k, power *= ratio) {
-    const Eigen::Array2d psi = power * table[k];
-    totals += psi;
-    sum += psi[0] * AlignedRow(middle + k * Columns) + psi[1] * AlignedRow(middle - k * Columns);
+  for (; k <= std::min(at.above, at.below); ++k, up_power *= up, down_power *= down) {
+    const Pair psi_above = up_power * table[k];
+    const Pair psi_below = down_power * table[k];
+    total += psi_above + psi_below;
+    for (int d = 0; d < Axes; ++d)
+      sum[d] += psi_above * middle[k * Axes + d] + psi_below * middle[-k * Axes + d];
   }
-  const bool up = at.above > at.below;  // near the ends one side reaches farther
-  const int step = up ? Columns : -Columns;
-  for (double psi = up ? power[0] : power[1]; k <= std::max(at.above, at.below); ++k) {
-    totals[0] += psi * table[k];
-    sum += (psi * table[k]) * AlignedRow(middle + k * step);
-    psi *= up ? ratio[0] : ratio[1];
+  // Near the ends one side reaches farther.
+  const bool is_up = at.above > at.below;
+  const Pair ratio = is_up ? up : down;
+  Pair power = is_up ? up_power : down_power;
+  for (; k <= std::max(at.above, at.below); ++k, power *= ratio) {
+    const Pair psi = power * table[k];
+    total += psi;
+    for (int d = 0; d < Axes; ++d) sum[d] += psi * middle[(is_up ? k : -k) * Axes + d];
   }
-  Eigen::Map<Row> mean(f);
-  mean = (basis_.x(s) / totals.sum()) * sum;
+  const Pair factor = pair.x / total;
+  for (int d = 0; d < Axes; ++d) {
+    f[d] = factor[0] * sum[d][0];
+    f_next[d] = factor[1] * sum[d][1];
+  }
 }
 
-void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept {
+template <int Axes>
+void ForcingTerm::evaluate_equal_in_time(double s, double next, double* f, double* f_next) const noexcept {
+  const GaussianBasis::Place at = basis_.place(s);
+  const GaussianBasis::Place at_next = basis_.place(next);
+  if (at.middle == at_next.middle) return evaluate_side_by_side<Axes>(at, s, next, f, f_next);
+  evaluate_side_by_side<Axes>(at, s, s, f, f);
+  evaluate_side_by_side<Axes>(at_next, next, next, f_next, f_next);
+}
+
+void ForcingTerm::evaluate(double s, double next, double* psi, double* f, double* f_next) const noexcept {
   if (basis_.overlap_ > 0.0) {
-    switch (rows_.cols()) {
+    switch (dimension()) {
+      case 1:
+        return evaluate_equal_in_time<1>(s, next, f, f_next);
       case 2:
-        return evaluate_equal_in_time<2>(s, f);
+        return evaluate_equal_in_time<2>(s, next, f, f_next);
+      case 3:
+        return evaluate_equal_in_time<3>(s, next, f, f_next);
       case 4:
-        return evaluate_equal_in_time<4>(s, f);
+        return evaluate_equal_in_time<4>(s, next, f, f_next);
+      case 5:
+        return evaluate_equal_in_time<5>(s, next, f, f_next);
       case 6:
-        return evaluate_equal_in_time<6>(s, f);
+        return evaluate_equal_in_time<6>(s, next, f, f_next);
+      case 7:
+        return evaluate_equal_in_time<7>(s, next, f, f_next);
       case 8:
-        return evaluate_equal_in_time<8>(s, f);
+        return evaluate_equal_in_time<8>(s, next, f, f_next);
     }
   }
+  evaluate_window(s, psi, f);
+  evaluate_window(next, psi, f_next);
+}
+
+void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept { evaluate(s, s, psi, f, f); }
+
+void ForcingTerm::evaluate_window(double s, double* psi, double* f) const noexcept {
   const GaussianBasis::Window window = basis_.proportional(s, psi);
-  weighted_mean(psi, window.count, rows_.data() + window.first * rows_.cols(), rows_.cols(), basis_.x(s), f);
+  weighted_mean(psi, window.count, weights_.data() + window.first * dimension(), dimension(), basis_.x(s), f);
 }
 
 RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
   GaussianBasis::require_phases(s);
-  RowMatrix values(s.size(), rows_.cols());
+  RowMatrix values(s.size(), dimension());
   VectorXd psi(basis_.window_capacity());
   for (Index k = 0; k < s.size(); ++k) evaluate(s[k], psi.data(), values.row(k).data());
-  return values.leftCols(dimension_);
+  return values;
 }
 
 RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,

@@ -148,3 +148,20 @@ TEST_CASE("every number of dimensions is evaluated alike") {
   for (int d = 1; d < 9; ++d)
     CHECK((ForcingTerm(basis, w.leftCols(d)).evaluate(s) - all.leftCols(d)).cwiseAbs().maxCoeff() < 1e-15);
 }
+
+TEST_CASE("two phases at once are what each is alone, bit for bit, however far apart") {
+  const auto basis = GaussianBasis::equal_in_time(15, kAlphaX, 0.7);
+  Eigen::VectorXd psi(basis.window_capacity());
+  for (int d = 1; d < 10; ++d) {
+    const ForcingTerm term(basis, RowMatrix::Random(15, d));
+    for (const double s : {0.0, 0.034, 0.5, 0.99, 1.0, 1.3, 40.0}) {
+      for (const double next : {s, s + 1e-3, s + 0.02, s + 0.3}) {
+        Eigen::MatrixXd together(d, 2), alone(d, 2);
+        term.evaluate(s, next, psi.data(), together.col(0).data(), together.col(1).data());
+        term.evaluate(s, psi.data(), alone.col(0).data());
+        term.evaluate(next, psi.data(), alone.col(1).data());
+        CHECK(together == alone);
+      }
+    }
+  }
+}

@@ -81,6 +81,25 @@ TEST_CASE("rotations stay rotations and the step is of fourth order") {
     CHECK((r * r.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-14);
 }
 
+TEST_CASE("Euler's rule goes to the same motion in both forms, in proportion to its step") {
+  for (const auto form : {OrientationForm::ude, OrientationForm::log_linear}) {
+    DmpOptions options;
+    options.orientation_form = form;
+    const auto demonstration = rotation(1000, 4.995, 2.0);
+    const OrientationDmp exact = OrientationDmp::fit(demonstration, options);
+    OrientationDmpParameters parameters = exact.parameters();
+    parameters.options.integrator = Integrator::semi_implicit_euler;
+    const OrientationDmp by_euler(parameters);
+    const auto miss = [&](double dt) {
+      return angles(by_euler.rollout({}, {}, dt).rotation, exact.rollout({}, {}, dt).rotation).largest;
+    };
+    const double coarse = miss(2e-3);
+    CHECK(coarse < 0.02);
+    CHECK(miss(1e-3) < 0.55 * coarse);
+    CHECK(miss(1e-3) > 0.45 * coarse);
+  }
+}
+
 TEST_CASE("a rotation of the body frame from the right goes through unchanged") {
   const OrientationDemonstration here = rotation(300, 2.0, 3.0);
   const Matrix3d q = so3::exp({.4, -1.0, .7});

@@ -51,9 +51,11 @@ class DMP_EXPORT GaussianBasis {
  private:
   friend class ForcingTerm;
   struct Place;
+  struct PhasePair;
 
   GaussianBasis(int count, double alpha_x);
   Place place(double s) const noexcept;
+  PhasePair pair(double s, double next, int middle) const noexcept;
   double x(double s) const noexcept;
   Window equal_in_time_window(double s, double* psi) const noexcept;
   Window source_window(double s, double* psi) const noexcept;

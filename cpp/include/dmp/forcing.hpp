@@ -19,23 +19,26 @@ class DMP_EXPORT ForcingTerm {
   ForcingTerm(const GaussianBasis& basis, const RowMatrix& weights);
 
   const GaussianBasis& basis() const noexcept { return basis_; }
-  Eigen::Index dimension() const noexcept { return dimension_; }
-  RowMatrix weights() const { return rows_.leftCols(dimension_); }
+  Eigen::Index dimension() const noexcept { return weights_.cols(); }
+  const RowMatrix& weights() const noexcept { return weights_; }
 
-  /// f (dims) at phase s; `psi` is scratch memory for basis().window_capacity() numbers, `f` has
-  /// padded_dimension() places.
+  /// f (dims) at phase s; `psi` is scratch memory for basis().window_capacity() numbers.
   void evaluate(double s, double* psi, double* f) const noexcept DMP_REALTIME;
-  Eigen::Index padded_dimension() const noexcept { return rows_.cols(); }
+  /// The same at two phases, for little more than the cost of one where they are near each other.
+  void evaluate(double s, double next, double* psi, double* f, double* f_next) const noexcept DMP_REALTIME;
   /// (T x dims) at each phase s.
   RowMatrix evaluate(const Eigen::VectorXd& s) const;
 
  private:
-  template <int Columns>
-  void evaluate_equal_in_time(double s, double* f) const noexcept;
+  template <int Axes>
+  void evaluate_equal_in_time(double s, double next, double* f, double* f_next) const noexcept;
+  template <int Axes>
+  void evaluate_side_by_side(const GaussianBasis::Place& at, double s, double next, double* f,
+                             double* f_next) const noexcept;
+  void evaluate_window(double s, double* psi, double* f) const noexcept;
 
   GaussianBasis basis_;
-  Eigen::Index dimension_;
-  RowMatrix rows_;  // padded to an even number of columns, so that two of them go through one instruction
+  RowMatrix weights_;
 };
 
 /// What a forcing term should be along one demonstration.

@@ -21,10 +21,11 @@ Vector3d small_inverse_jacobian(const Vector3d& u, const Vector3d& v) noexcept {
 }
 
 /// omega and its rate for R = Exp(p) Rg, from p' and p'': omega = J_l(p) p', J_l = 1 + a [p]x + b [p]x^2 with
-/// a = (1 - cos theta) / theta^2, b = (theta - sin theta) / theta^3.
+/// a = (1 - cos theta) / theta^2, b = (theta - sin theta) / theta^3. `turn` is Exp(p): it holds sine and
+/// cosine.
 class ExponentialRates {
  public:
-  explicit ExponentialRates(const Vector3d& p) noexcept : p_(p) {
+  ExponentialRates(const Vector3d& p, const Quaterniond& turn) noexcept : p_(p) {
     const double t = p.squaredNorm();
     if (t < 0.0025) {
       a_ = 0.5 + t * (-1.0 / 24 + t * (1.0 / 720 - t / 40320));
@@ -34,10 +35,9 @@ class ExponentialRates {
       return;
     }
     const double theta = std::sqrt(t);
-    const double s = std::sin(0.5 * theta);
-    const double c = std::cos(0.5 * theta);
+    const double s = turn.vec().dot(p) / theta;  // sin(theta / 2)
     a_ = 2.0 * s * s / t;
-    b_ = (theta - 2.0 * s * c) / (t * theta);
+    b_ = (theta - 2.0 * s * turn.w()) / (t * theta);
     a_rate_ = (1.0 - t * b_ - 2.0 * a_) / t;
     b_rate_ = (a_ - 3.0 * b_) / t;
   }
@@ -63,7 +63,7 @@ class ExponentialRates {
 /// Back to length 1 to first order: the steps leave it by rounding only.
 void renormalise(Quaterniond& q) noexcept {
   q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
-  q.coeffs() = q.coeffs().unaryExpr([](double v) { return flushed(v); });  // on the way to the identity
+  q.coeffs() = flushed<Eigen::Array4d>(q.coeffs());  // on the way to the identity
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Mat
       displacement_(start_error),
       rotation_(q_) {
   scale_.set(e_);
-  z_ = so3::left_jacobian_inverse(-e_) * eta_;
+  follow_error();
 }
 
 Vector3d OrientationMotion::error(const Quaterniond& goal, const Quaterniond& q) const noexcept {
@@ -134,7 +134,14 @@ void OrientationMotion::jump_to_goal() noexcept {
 
 void OrientationMotion::follow_goal() noexcept {
   e_ = error(goal_, q_);
-  if (form_ == OrientationForm::log_linear) z_ = so3::left_jacobian_inverse(-e_) * eta_;
+  follow_error();
+}
+
+/// What the log-linear form goes by, from the error and the velocity.
+void OrientationMotion::follow_error() noexcept {
+  if (form_ != OrientationForm::log_linear) return;
+  z_ = so3::left_jacobian_inverse(-e_) * eta_;
+  turn_ = so3::exp_quaternion(-e_);
 }
 
 const double* OrientationMotion::scaled(const double* forcing, int node) noexcept {
@@ -198,7 +205,7 @@ void OrientationMotion::advance_ude(double step, const double* start, const doub
 
   q_ = so3::exp_quaternion(step / 6.0 * (v1 + 2.0 * (v2 + v3) + v4)) * q_;
   eta_ += step / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
-  eta_ = eta_.unaryExpr([](double v) { return flushed(v); });
+  eta_ = flushed<Eigen::Array3d>(eta_);
   goal_ = goal_end;
   e_ = error(goal_, q_);
 }
@@ -213,16 +220,29 @@ void OrientationMotion::advance_log_linear(double step, const double* start, con
   spring_.prepare(step);
   Vector3d p = -e_;
   for (int d = 0; d < 3; ++d) spring_.advance(p[d], z_[d], start[d], middle[d], end[d]);
+  turn_to(p);
+}
+
+/// R = Exp(p) Rg, after a step of the log-linear form.
+void OrientationMotion::turn_to(const Vector3d& p) noexcept {
   e_ = -p;
-  q_ = so3::exp_quaternion(p) * goal_;
-  eta_ = ExponentialRates(p).velocity(z_);
+  turn_ = so3::exp_quaternion(p);
+  q_ = turn_ * goal_;
+  if (!settled_) eta_ = ExponentialRates(p, turn_).velocity(z_);  // what the next goal finds
 }
 
 void OrientationMotion::advance_euler(double step, const double* end) noexcept {
-  if (!settled_) goal_ = filtered_goal(step);
-  e_ = error(goal_, q_);
+  if (!settled_) {
+    goal_ = filtered_goal(step);
+    follow_goal();
+  }
+  if (form_ == OrientationForm::log_linear) {
+    z_ += step * acceleration(e_, z_, end);
+    z_ = flushed<Eigen::Array3d>(z_);
+    return turn_to(flushed<Eigen::Array3d>(step * z_ - e_));
+  }
   eta_ += step * acceleration(e_, eta_, end);
-  eta_ = eta_.unaryExpr([](double v) { return flushed(v); });
+  eta_ = flushed<Eigen::Array3d>(eta_);
   q_ = so3::exp_quaternion(step * eta_) * q_;
   e_ = error(goal_, q_);
 }
@@ -231,8 +251,9 @@ bool OrientationMotion::look(double speed, double speed_rate, const double* forc
   const double* const f = scaled(forcing, 3);
   Vector3d change;
   if (form_ == OrientationForm::log_linear) {
-    const Vector3d zs = spring_.stiffness() * e_ - spring_.alpha() * z_ + Vector3d(f[0], f[1], f[2]);
-    change = ExponentialRates(-e_).acceleration(z_, zs);
+    const ExponentialRates rates(-e_, turn_);
+    eta_ = rates.velocity(z_);
+    change = rates.acceleration(z_, acceleration(e_, z_, f));
   } else {
     change = this->acceleration(e_, eta_, f);
   }

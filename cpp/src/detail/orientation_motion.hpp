@@ -40,8 +40,10 @@ class OrientationMotion {
   void rescale() noexcept;
   /// e_ anew, after the goal or R changed by other than a step, and z_ so that omega stays.
   void follow_goal() noexcept;
+  void follow_error() noexcept;
   void advance_ude(double step, const double* start, const double* middle, const double* end) noexcept;
   void advance_log_linear(double step, const double* start, const double* middle, const double* end) noexcept;
+  void turn_to(const Eigen::Vector3d& p) noexcept;
   void advance_euler(double step, const double* end) noexcept;
   /// Log(goal q^-1), on the branch nearest to e unless the principal one is wanted.
   Eigen::Vector3d error(const Eigen::Quaterniond& goal, const Eigen::Quaterniond& q) const noexcept;
@@ -61,9 +63,10 @@ class OrientationMotion {
   ForcingScale scale_;
   Eigen::Vector3d model_error_;
   Eigen::Quaterniond q_;
-  Eigen::Vector3d eta_;
+  Eigen::Vector3d eta_;  // in the log-linear form from z_, when it is looked at
   Eigen::Vector3d e_;
   Eigen::Vector3d z_;          // p' of the log-linear form, p = -e_
+  Eigen::Quaterniond turn_;    // Exp(p)
   Eigen::Quaterniond goal_;    // as filtered
   Eigen::Quaterniond target_;  // as set
   Eigen::Quaterniond start_;

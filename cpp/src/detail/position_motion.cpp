@@ -94,18 +94,30 @@ void PositionMotion::advance(double step, const ForcingNodes& forcing) noexcept 
 void PositionMotion::advance_exactly(double step, const double* start, const double* middle,
                                      const double* end) noexcept {
   spring_.prepare(step);
-  const double half_decay = settled_ ? 0.0 : std::exp(-0.5 * goal_filter_ * step);
+  if (settled_) {
+    for_axes(y_.size(), [&, y = y_.data(), z = z_.data(), goal = goal_.data()](auto axes) {
+      for (Index d = 0; d < axes; ++d) {
+        double u = y[d] - goal[d];
+        spring_.advance(u, z[d], start[d], middle[d], end[d]);
+        y[d] = goal[d] + u;
+      }
+    });
+    return;
+  }
+  advance_to_moving_goal(step, start, middle, end);
+}
+
+/// The way of the goal is a force on the spring around where it arrives.
+void PositionMotion::advance_to_moving_goal(double step, const double* start, const double* middle,
+                                            const double* end) noexcept {
+  const double half_decay = std::exp(-0.5 * goal_filter_ * step);
   const double stiffness = spring_.stiffness();
   double farthest = 0.0;
   for (Index d = 0; d < y_.size(); ++d) {
-    double pull_start = 0.0;
-    double pull_middle = 0.0;
-    if (!settled_) {  // the goal moves: its way is a force on the spring around where it arrives
-      const double away = goal_[d] - target_[d];
-      pull_start = stiffness * away * (1.0 - half_decay * half_decay);
-      pull_middle = stiffness * away * half_decay * (1.0 - half_decay);
-      farthest = std::fmax(farthest, approach(d, half_decay * half_decay));
-    }
+    const double away = goal_[d] - target_[d];
+    const double pull_start = stiffness * away * (1.0 - half_decay * half_decay);
+    const double pull_middle = stiffness * away * half_decay * (1.0 - half_decay);
+    farthest = std::fmax(farthest, approach(d, half_decay * half_decay));
     double u = y_[d] - goal_[d];
     spring_.advance(u, z_[d], start[d] + pull_start, middle[d] + pull_middle, end[d]);
     y_[d] = goal_[d] + u;

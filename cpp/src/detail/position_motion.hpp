@@ -48,6 +48,8 @@ class PositionMotion {
   double approach(Eigen::Index d, double share) noexcept;
   void follow_goal(double farthest) noexcept;
   void advance_exactly(double step, const double* start, const double* middle, const double* end) noexcept;
+  void advance_to_moving_goal(double step, const double* start, const double* middle,
+                              const double* end) noexcept;
   void advance_euler(double step, const double* end) noexcept;
   /// The forcing term times its scale, in place `node` of the scratch memory.
   const double* scaled(const double* forcing, int node) noexcept;

@@ -26,7 +26,7 @@ class Runner {
       : forcing_(&forcing),
         phase_(duration, options.alpha_x, options.tempo_filter, options.phase_stop),
         motion_(std::move(motion)),
-        nodes_(RowMatrix::Zero(3, forcing.padded_dimension())),
+        nodes_(RowMatrix::Zero(3, forcing.dimension())),
         psi_(forcing.basis().window_capacity()),
         force_after_end_(options.force_after_end),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
@@ -99,6 +99,12 @@ class Runner {
     std::fill_n(node(which), nodes_.cols(), 0.0);
   }
 
+  void evaluate_way(double middle, double end, bool on) noexcept {
+    if (on) return forcing_->evaluate(middle, end, psi_.data(), node(kMiddle), node(kEnd));
+    evaluate(kMiddle, middle, on);
+    evaluate(kEnd, end, on);
+  }
+
   void advance(double way) noexcept {
     double s = phase_.s();
     const bool straddles = s < 1.0 - kRounding && s + way > 1.0 + kRounding;
@@ -112,9 +118,10 @@ class Runner {
 
   void advance_evenly(double s, double way) noexcept {
     if (way <= 0.0) return;
+    const bool on = force_after_end_ || s < 1.0 - kRounding;
+    if (way <= largest_step_) return advance_once(s, way, on);
     const int pieces = std::max(1, static_cast<int>(std::ceil(way / largest_step_ - 1e-6)));
     const double piece = way / pieces;
-    const bool on = force_after_end_ || s < 1.0 - kRounding;
     for (int i = 0; i < pieces; ++i) advance_once(s + i * piece, piece, on);
   }
 
@@ -124,8 +131,7 @@ class Runner {
     } else {
       evaluate(kStart, s, on);
     }
-    evaluate(kMiddle, s + 0.5 * piece, on);
-    evaluate(kEnd, s + piece, on);
+    evaluate_way(s + 0.5 * piece, s + piece, on);
     evaluated_at_ = on ? s + piece : kNowhere;
     motion_.advance(piece, {node(kStart), node(kMiddle), node(kEnd)});
   }

@@ -24,10 +24,11 @@ class SpringDamper {
 
   /// One axis: u and z after the step, from the forcing at its start, middle and end.
   void advance(double& u, double& z, double f_start, double f_middle, double f_end) const noexcept {
-    const double next =
-        e_(0, 0) * u + e_(0, 1) * z + b_(0, 0) * f_start + b_(0, 1) * f_middle + b_(0, 2) * f_end;
-    z = flushed(e_(1, 0) * u + e_(1, 1) * z + b_(1, 0) * f_start + b_(1, 1) * f_middle + b_(1, 2) * f_end);
-    u = flushed(next);
+    const Eigen::Array2d next = e_.col(0).array() * u + e_.col(1).array() * z + b_.col(0).array() * f_start +
+                                b_.col(1).array() * f_middle + b_.col(2).array() * f_end;
+    const Eigen::Array2d state = flushed<Eigen::Array2d>(next);
+    u = state[0];
+    z = state[1];
   }
 
  private:
