@@ -49,7 +49,7 @@ double exponent(const std::vector<double>& size, const std::vector<double>& cost
 /// One row: the times at each size and the exponent over the larger half, where what is constant has faded.
 void row(const char* name, const std::vector<int>& sizes,
          const std::function<std::function<void()>(int)>& work) {
-  std::printf("%-34s", name);
+  std::printf("%-48s", name);
   std::vector<double> size, cost;
   for (const int n : sizes) {
     const double seconds = median_seconds(work(n));
@@ -93,16 +93,20 @@ void memory() {
   }
 }
 
+void fits_of_large_arrays(const char* memory) {
+  row((std::string("fit over samples (N 100, 3 axes)") + memory).c_str(), {1000, 2000, 4000, 8000, 16000},
+      [](int n) { return [t = times(n), y = motion(n, 3)] { Dmp::fit(Demonstration(t, y)); }; });
+  row((std::string("fit over dimensions (1000 samples)") + memory).c_str(), {24, 48, 96, 192, 384},
+      [](int n) { return [t = times(1000), y = motion(1000, n)] { Dmp::fit(Demonstration(t, y)); }; });
+}
+
 }  // namespace
 
 int main() {
-  row("fit over samples (N 100, 3 axes)", {1000, 2000, 4000, 8000, 16000},
-      [](int n) { return [t = times(n), y = motion(n, 3)] { Dmp::fit(Demonstration(t, y)); }; });
+  fits_of_large_arrays("");
   row("fit over kernels (4000 samples)", {25, 50, 100, 200, 400}, [](int n) {
     return [t = times(4000), y = motion(4000, 3), o = kernels(n)] { Dmp::fit(Demonstration(t, y), o); };
   });
-  row("fit over dimensions (1000 samples)", {24, 48, 96, 192, 384},
-      [](int n) { return [t = times(1000), y = motion(1000, n)] { Dmp::fit(Demonstration(t, y)); }; });
   row("joint fit over demonstrations", {10, 20, 40, 80, 160}, [](int n) {
     return [d = std::vector<Demonstration>(static_cast<std::size_t>(n),
                                            Demonstration(times(300), motion(300, 3)))] { Dmp::fit(d); };
@@ -126,4 +130,9 @@ int main() {
     return [dmp = Dmp::fit(Demonstration(times(1000), motion(1000, 3))), n] { dmp.rollout({}, {}, 5.0 / n); };
   });
   memory();
+  // The C library gives arrays of more than 128 KiB back at once and takes them anew, page by page. Kept,
+  // they show what the arithmetic costs.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  fits_of_large_arrays(", memory kept");
 }
