@@ -20,6 +20,7 @@ set(DMP_core_SOURCES
   detail/collocation.cpp
   detail/forcing_fit.cpp
   detail/forcing_scale.cpp
+  detail/json_fields.cpp
   detail/learning.cpp
   detail/model_json.cpp
   detail/normal_equations.cpp

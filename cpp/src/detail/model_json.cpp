@@ -2,27 +2,17 @@
 
 #include <dmp/error.hpp>
 
-#include <array>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
-
-#include "detail/text.hpp"
 
 namespace dmp::detail {
 namespace {
 
-using Eigen::Index;
-
 constexpr int kVersion = 1;
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr int kDeepest = 8;
-
-// ---- the names that options have in a file
-// ----------------------------------------------------------------------
-
-template <class Enum>
-using Names = std::vector<std::pair<Enum, const char*>>;
 
 const Names<Kernels> kKernels{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
 const Names<Regression> kRegression{{Regression::lwr, "lwr"}, {Regression::ridge, "ridge"}};
@@ -41,252 +31,74 @@ const Names<Start> kStart{{Start::demonstrated, "demonstrated"}, {Start::rest, "
 const Names<Integrator> kIntegrator{{Integrator::exact, "exact"},
                                     {Integrator::semi_implicit_euler, "semi_implicit_euler"}};
 
-template <class Enum>
-std::string name_of(Enum value, const Names<Enum>& names) {
-  for (const auto& [known, name] : names)
-    if (known == value) return name;
-  throw InvalidArgument("options: an enumerator outside its enumeration.");
+// What a model file holds, each field once: a reader fills it, a writer writes it.
+
+template <class Visitor, class Options>
+void visit_options(const Visitor& visit, Options& o) {
+  visit("basis_count", o.basis_count);
+  visit("alpha", o.alpha);
+  visit("beta", o.beta);
+  visit("orientation_alpha", o.orientation_alpha);
+  visit("orientation_beta", o.orientation_beta);
+  visit("alpha_x", o.alpha_x);
+  visit("kernels", o.kernels, kKernels);
+  visit("overlap", o.overlap);
+  visit("regression", o.regression, kRegression);
+  visit("passes", o.passes);
+  visit("ridge", o.ridge);
+  visit("scaling", o.scaling, kScaling);
+  visit("orientation_form", o.orientation_form, kForm);
+  visit("log_branch", o.log_branch, kBranch);
+  visit("derivatives", o.derivatives, kDerivatives);
+  visit("start", o.start, kStart);
+  visit("integrator", o.integrator, kIntegrator);
+  visit("force_after_end", o.force_after_end);
+  visit("goal_filter", o.goal_filter);
+  visit("tempo_filter", o.tempo_filter);
+  visit("phase_stop", o.phase_stop);
 }
 
-// ---- reading
-// ----------------------------------------------------------------------------------------------------
-
-const Json& member(const Json& object, const std::string& key, const std::string& where) {
-  if (!object.is_object()) throw InvalidArgument(where + ": expected an object.");
-  const auto found = object.find(key);
-  if (found == object.end()) throw InvalidArgument(where + ": the key '" + key + "' is missing.");
-  return *found;
-}
-
-double number_at(const Json& json, const std::string& where) {
-  if (!json.is_number()) throw InvalidArgument(where + ": expected a number.");
-  return json.get<double>();
-}
-
-int integer_at(const Json& json, const std::string& where) {
-  const double value = number_at(json, where);
-  if (value != static_cast<double>(static_cast<int>(std::max(-1e9, std::min(1e9, value)))))
-    throw InvalidArgument(where + ": " + number(value) + ", expected a whole number.");
-  return static_cast<int>(value);
-}
-
-bool boolean_at(const Json& json, const std::string& where) {
-  if (!json.is_boolean()) throw InvalidArgument(where + ": expected true or false.");
-  return json.get<bool>();
-}
-
-std::string text_at(const Json& json, const std::string& where) {
-  if (!json.is_string()) throw InvalidArgument(where + ": expected text.");
-  return json.get<std::string>();
-}
-
-template <class Enum>
-Enum enum_at(const Json& json, const std::string& where, const Names<Enum>& names) {
-  const std::string text = text_at(json, where);
-  std::string known;
-  for (const auto& [value, name] : names) {
-    if (text == name) return value;
-    known += (known.empty() ? "" : ", ") + std::string(name);
+/// What the velocity and the error at the start are called depends on the kind.
+template <class Visitor, class Parameters>
+void visit_start(const Visitor& visit, Parameters& p) {
+  using Kind = std::remove_const_t<Parameters>;
+  if constexpr (std::is_same_v<Kind, PoseDmpParameters>) {
+    visit("start_twist", p.start_twist);
+  } else {
+    visit("start_velocity", p.start_velocity);
   }
-  throw InvalidArgument(where + ": '" + text + "' is unknown, expected one of " + known + ".");
+  if constexpr (!std::is_same_v<Kind, DmpParameters>) visit("start_error", p.start_error);
 }
 
-/// Rows of numbers, all of one length.
-RowMatrix table_at(const Json& json, const std::string& where) {
-  if (!json.is_array() || json.empty() || !json[0].is_array() || json[0].empty())
-    throw InvalidArgument(where + ": expected rows of numbers.");
-  RowMatrix table(static_cast<Index>(json.size()), static_cast<Index>(json[0].size()));
-  for (Index r = 0; r < table.rows(); ++r) {
-    const Json& row = json[static_cast<std::size_t>(r)];
-    if (!row.is_array() || static_cast<Index>(row.size()) != table.cols())
-      throw InvalidArgument(indexed(where, r) + ": expected " + std::to_string(table.cols()) + " numbers.");
-    for (Index c = 0; c < table.cols(); ++c)
-      table(r, c) = number_at(row[static_cast<std::size_t>(c)], indexed(where, r));
-  }
-  return table;
+template <class Visitor, class Parameters>
+void visit_parameters(const Visitor& visit, Parameters& p) {
+  visit("duration", p.duration);
+  visit("start", p.start);
+  visit("goal", p.goal);
+  visit_start(visit, p);
+  visit("amplitude", p.amplitude);
+  visit("weights", p.weights);
 }
 
-Eigen::VectorXd vector_at(const Json& json, const std::string& where) {
-  if (!json.is_array()) throw InvalidArgument(where + ": expected a list of numbers.");
-  Eigen::VectorXd vector(static_cast<Index>(json.size()));
-  for (Index d = 0; d < vector.size(); ++d)
-    vector[d] = number_at(json[static_cast<std::size_t>(d)], indexed(where, d));
-  return vector;
-}
-
-template <int Size>
-Eigen::Matrix<double, Size, 1> fixed_vector_at(const Json& json, const std::string& where) {
-  const Eigen::VectorXd vector = vector_at(json, where);
-  if (vector.size() != Size)
-    throw InvalidArgument(where + ": expected " + std::to_string(Size) + " numbers.");
-  return vector;
-}
-
-template <int Size>
-Eigen::Matrix<double, Size, Size> square_at(const Json& json, const std::string& where) {
-  const RowMatrix table = table_at(json, where);
-  const std::string size = std::to_string(Size);
-  if (table.rows() != Size || table.cols() != Size)
-    throw InvalidArgument(where + ": expected a " + size + " x " + size + " matrix.");
-  return table;
-}
-
-// ---- writing
-// ----------------------------------------------------------------------------------------------------
-
-Json to_list(const Eigen::VectorXd& vector) {
-  return std::vector<double>(vector.data(), vector.data() + vector.size());
-}
-
-Json to_rows(const RowMatrix& table) {
-  Json rows = Json::array();
-  for (Index r = 0; r < table.rows(); ++r) rows.push_back(to_list(table.row(r)));
-  return rows;
-}
-
-// ---- options
-// ----------------------------------------------------------------------------------------------------
-
-Json to_json(const DmpOptions& o) {
-  return {{"basis_count", o.basis_count},
-          {"alpha", o.alpha},
-          {"beta", *o.beta},
-          {"orientation_alpha", *o.orientation_alpha},
-          {"orientation_beta", *o.orientation_beta},
-          {"alpha_x", o.alpha_x},
-          {"kernels", name_of(o.kernels, kKernels)},
-          {"overlap", *o.overlap},
-          {"regression", name_of(o.regression, kRegression)},
-          {"passes", o.passes},
-          {"ridge", o.ridge},
-          {"scaling", name_of(o.scaling, kScaling)},
-          {"orientation_form", name_of(o.orientation_form, kForm)},
-          {"log_branch", name_of(o.log_branch, kBranch)},
-          {"derivatives", name_of(o.derivatives, kDerivatives)},
-          {"start", name_of(o.start, kStart)},
-          {"integrator", name_of(o.integrator, kIntegrator)},
-          {"force_after_end", o.force_after_end},
-          {"goal_filter", o.goal_filter},
-          {"tempo_filter", o.tempo_filter},
-          {"phase_stop", o.phase_stop}};
-}
-
-DmpOptions options_at(const Json& model) {
-  const Json& json = member(model, "options", "model");
-  const std::string where = "options";
-  const auto at = [&](const char* key) -> const Json& { return member(json, key, where); };
-  const auto place = [&](const char* key) { return where + "." + key; };
-  const auto value = [&](const char* key) { return number_at(at(key), place(key)); };
-  DmpOptions o;
-  o.basis_count = integer_at(at("basis_count"), place("basis_count"));
-  o.alpha = value("alpha");
-  o.beta = value("beta");
-  o.orientation_alpha = value("orientation_alpha");
-  o.orientation_beta = value("orientation_beta");
-  o.alpha_x = value("alpha_x");
-  o.kernels = enum_at(at("kernels"), place("kernels"), kKernels);
-  o.overlap = value("overlap");
-  o.regression = enum_at(at("regression"), place("regression"), kRegression);
-  o.passes = integer_at(at("passes"), place("passes"));
-  o.ridge = value("ridge");
-  o.scaling = enum_at(at("scaling"), place("scaling"), kScaling);
-  o.orientation_form = enum_at(at("orientation_form"), place("orientation_form"), kForm);
-  o.log_branch = enum_at(at("log_branch"), place("log_branch"), kBranch);
-  o.derivatives = enum_at(at("derivatives"), place("derivatives"), kDerivatives);
-  o.start = enum_at(at("start"), place("start"), kStart);
-  o.integrator = enum_at(at("integrator"), place("integrator"), kIntegrator);
-  o.force_after_end = boolean_at(at("force_after_end"), place("force_after_end"));
-  o.goal_filter = value("goal_filter");
-  o.tempo_filter = value("tempo_filter");
-  o.phase_stop = value("phase_stop");
-  return o;
-}
-
-// ---- the three kinds
-// --------------------------------------------------------------------------------------------
-
-Json header(const char* kind, const DmpOptions& options, double duration) {
-  return {{"format", "dmpcpp"},
-          {"version", kVersion},
-          {"kind", kind},
-          {"options", to_json(options)},
-          {"duration", duration}};
-}
-
-Json to_json(const Dmp& dmp) {
-  const DmpParameters& p = dmp.parameters();
-  Json json = header("dmp", p.options, p.duration);
-  json["start"] = to_list(p.start);
-  json["goal"] = to_list(p.goal);
-  json["start_velocity"] = to_list(p.start_velocity);
-  json["amplitude"] = to_list(p.amplitude);
-  json["weights"] = to_rows(p.weights);
+template <class Parameters>
+Json write(const char* kind, const Parameters& parameters) {
+  Json options = Json::object();
+  visit_options(JsonWriter(options), parameters.options);
+  Json json{{"format", "dmpcpp"}, {"version", kVersion}, {"kind", kind}, {"options", std::move(options)}};
+  visit_parameters(JsonWriter(json), parameters);
   return json;
 }
 
-Json to_json(const OrientationDmp& dmp) {
-  const OrientationDmpParameters& p = dmp.parameters();
-  Json json = header("orientation_dmp", p.options, p.duration);
-  json["start"] = to_rows(p.start);
-  json["goal"] = to_rows(p.goal);
-  json["start_velocity"] = to_list(p.start_velocity);
-  json["start_error"] = to_list(p.start_error);
-  json["amplitude"] = to_list(p.amplitude);
-  json["weights"] = to_rows(p.weights);
-  return json;
-}
+Json to_json(const Dmp& dmp) { return write("dmp", dmp.parameters()); }
+Json to_json(const OrientationDmp& dmp) { return write("orientation_dmp", dmp.parameters()); }
+Json to_json(const PoseDmp& dmp) { return write("pose_dmp", dmp.parameters()); }
 
-Json to_json(const PoseDmp& dmp) {
-  const PoseDmpParameters& p = dmp.parameters();
-  Json json = header("pose_dmp", p.options, p.duration);
-  json["start"] = to_rows(p.start);
-  json["goal"] = to_rows(p.goal);
-  json["start_twist"] = to_list(p.start_twist);
-  json["start_error"] = to_list(p.start_error);
-  json["amplitude"] = to_list(p.amplitude);
-  json["weights"] = to_rows(p.weights);
-  return json;
-}
-
-Dmp dmp_at(const Json& json) {
-  const auto at = [&](const char* key) -> const Json& { return member(json, key, "model"); };
-  DmpParameters p;
-  p.options = options_at(json);
-  p.duration = number_at(at("duration"), "duration");
-  p.start = vector_at(at("start"), "start");
-  p.goal = vector_at(at("goal"), "goal");
-  p.start_velocity = vector_at(at("start_velocity"), "start_velocity");
-  p.amplitude = vector_at(at("amplitude"), "amplitude");
-  p.weights = table_at(at("weights"), "weights");
-  return Dmp(p);
-}
-
-OrientationDmp orientation_dmp_at(const Json& json) {
-  const auto at = [&](const char* key) -> const Json& { return member(json, key, "model"); };
-  OrientationDmpParameters p;
-  p.options = options_at(json);
-  p.duration = number_at(at("duration"), "duration");
-  p.start = square_at<3>(at("start"), "start");
-  p.goal = square_at<3>(at("goal"), "goal");
-  p.start_velocity = fixed_vector_at<3>(at("start_velocity"), "start_velocity");
-  p.start_error = fixed_vector_at<3>(at("start_error"), "start_error");
-  p.amplitude = fixed_vector_at<3>(at("amplitude"), "amplitude");
-  p.weights = table_at(at("weights"), "weights");
-  return OrientationDmp(p);
-}
-
-PoseDmp pose_dmp_at(const Json& json) {
-  const auto at = [&](const char* key) -> const Json& { return member(json, key, "model"); };
-  PoseDmpParameters p;
-  p.options = options_at(json);
-  p.duration = number_at(at("duration"), "duration");
-  p.start = square_at<4>(at("start"), "start");
-  p.goal = square_at<4>(at("goal"), "goal");
-  p.start_twist = fixed_vector_at<6>(at("start_twist"), "start_twist");
-  p.start_error = fixed_vector_at<3>(at("start_error"), "start_error");
-  p.amplitude = fixed_vector_at<6>(at("amplitude"), "amplitude");
-  p.weights = table_at(at("weights"), "weights");
-  return PoseDmp(p);
+template <class Parameters>
+Parameters read(const Json& json) {
+  Parameters parameters;
+  visit_options(JsonReader(member(json, "options", "model"), "options", "options."), parameters.options);
+  visit_parameters(JsonReader(json, "model", ""), parameters);
+  return parameters;
 }
 
 /// Refuses what a plain parse would take: repeated keys, deep nesting, too many values.
@@ -333,9 +145,9 @@ Model model_from_json(const Json& json) {
     throw InvalidArgument("version: " + std::to_string(version) + ", expected " + std::to_string(kVersion) +
                           (version > kVersion ? ". The file was written by a newer dmpcpp: update." : "."));
   const std::string kind = text_at(member(json, "kind", "model"), "kind");
-  if (kind == "dmp") return dmp_at(json);
-  if (kind == "orientation_dmp") return orientation_dmp_at(json);
-  if (kind == "pose_dmp") return pose_dmp_at(json);
+  if (kind == "dmp") return Dmp(read<DmpParameters>(json));
+  if (kind == "orientation_dmp") return OrientationDmp(read<OrientationDmpParameters>(json));
+  if (kind == "pose_dmp") return PoseDmp(read<PoseDmpParameters>(json));
   throw InvalidArgument("kind: '" + kind + "' is unknown, expected dmp, orientation_dmp or pose_dmp.");
 }
 

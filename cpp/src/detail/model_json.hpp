@@ -2,12 +2,11 @@
 
 #include <dmp/file.hpp>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
-namespace dmp::detail {
+#include "detail/json_fields.hpp"
 
-using Json = nlohmann::ordered_json;
+namespace dmp::detail {
 
 /// Text to JSON, refusing repeated keys, deep nesting and more than 10^6 numbers while it is read.
 Json parse_json(const std::string& text);
