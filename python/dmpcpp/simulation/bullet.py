@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -62,9 +61,10 @@ class Bullet(BulletWorld):
         velocity: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Torque for an acceleration of the arm's joints, the others held."""
-        accelerations = self._among(self._at_rest, acceleration)
-        q = self._q if position is None else self._among(self._q, position)
-        qd = self._qd if velocity is None else self._among(self._qd, velocity)
+        held_q, held_qd = self._held_state
+        q = self._in_tree_order(self._state[0] if position is None else position, held_q)
+        qd = self._in_tree_order(self._state[1] if velocity is None else velocity, held_qd)
+        accelerations = self._in_tree_order(acceleration, self._at_rest)
         torque = self._p.calculateInverseDynamics(self._body, q, qd, accelerations, physicsClientId=self._client)
         # Bullet steps with the joint damping of the URDF but leaves it out of its inverse dynamics.
         return np.array([torque[i] + self._damping[i] * qd[i] for i in self._of_arm])
@@ -93,7 +93,7 @@ class Bullet(BulletWorld):
 
     def servo_torque(self) -> NDArray[np.float64]:
         """Torque that the motors gave in the last step."""
-        return np.array([self._motor_torque[i] for i in self._of_arm])
+        return np.array(self._motor_torque)
 
     def step(self) -> None:
         """Advance and read the joints."""
@@ -103,11 +103,13 @@ class Bullet(BulletWorld):
     def tool_pose(self) -> NDArray[np.float64]:
         """Pose of the tip in the base frame, by Bullet."""
         tip = self._link_pose(self._tip)
-        return tip if self._base == -1 else np.linalg.inv(self._link_pose(self._base)) @ tip
+        return tip if self._base == -1 else self._root_in_base() @ tip
 
     def contacts(self) -> list[Contact]:
         """The deepest contact of every pair that overlaps."""
         points = self._p.getContactPoints(self._body, physicsClientId=self._client)
+        if not points:
+            return []
         deepest: dict[tuple[str, str], float] = {}
         for point in points:
             if point[8] < 0.0:  # a positive distance is a near miss inside Bullet's contact margin
@@ -132,12 +134,13 @@ class Bullet(BulletWorld):
 
     # ---- reading -----------------------------------------------------------------------------------------
 
-    def _among(self, moving: Sequence[float], of_arm: NDArray[np.float64]) -> list[float]:
-        """Values of all moving joints, those of the arm replaced."""
-        values = list(moving)
-        for i, value in zip(self._of_arm, of_arm.tolist(), strict=True):
-            values[i] = value
-        return values
+    def _in_tree_order(self, of_arm: NDArray[np.float64], of_held: list[float]) -> list[float]:
+        """Values of all moving joints as Bullet's inverse dynamics wants them."""
+        values = of_arm.tolist() + of_held
+        return [values[k] for k in self._tree_order]
+
+    def _root_in_base(self) -> NDArray[np.float64]:
+        return self._root_in_still_base if self._base_stands else np.linalg.inv(self._link_pose(self._base))
 
     def _clearance(self, other: int, link: int, other_link: int, within: float) -> Clearance | None:
         points = self._p.getClosestPoints(self._body, other, within, link, other_link, physicsClientId=self._client)
@@ -145,15 +148,6 @@ class Bullet(BulletWorld):
             return None
         nearest = min(points, key=lambda point: point[8])
         return Clearance(*self._names_of(nearest), float(nearest[8]))
-
-    def _link_pose(self, link: int) -> NDArray[np.float64]:
-        """Pose of a link's frame (not of its centre of mass) in the root's frame."""
-        if link == -1:
-            return np.eye(4)
-        state = self._p.getLinkState(self._body, link, computeForwardKinematics=True, physicsClientId=self._client)
-        x, y, z = state[4]
-        r = self._p.getMatrixFromQuaternion(state[5])
-        return np.array([(*r[:3], x), (*r[3:6], y), (*r[6:], z), (0.0, 0.0, 0.0, 1.0)])
 
     def _names_of(self, point: Any) -> tuple[str, str]:
         link = self._link_names[point[3]]

@@ -17,6 +17,7 @@ from types import ModuleType
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument, MissingDependency
@@ -117,12 +118,14 @@ class BulletWorld:
     def _index_moving(self, moving: list[Any]) -> None:
         """Where the arm's joints are among all that move."""
         names = [info[1].decode() for info in moving]
-        self._moving = [info[0] for info in moving]
         self._damping = [info[6] for info in moving]
-        self._at_rest = [0.0] * len(moving)
         self._of_arm = [names.index(name) for name in self.arm.joint_names]
-        self._arm_joints = [self._moving[k] for k in self._of_arm]
-        self._held = [info for k, info in enumerate(moving) if k not in self._of_arm]
+        of_held = [k for k in range(len(moving)) if k not in self._of_arm]
+        self._tree_order = np.argsort(self._of_arm + of_held).tolist()
+        self._arm_joints = [moving[k][0] for k in self._of_arm]
+        self._held = [moving[k] for k in of_held]
+        self._moving = self._arm_joints + [info[0] for info in self._held]
+        self._at_rest = [0.0] * len(self._held)
         self._unit_gains = [1.0] * len(self._arm_joints)
         self._servo_limit = np.minimum(self.arm.effort_limit, _UNLIMITED_TORQUE).tolist()
 
@@ -162,6 +165,8 @@ class BulletWorld:
         root = self._link_names[-1]
         standing = next(group for group in description.rigid_groups if root in group)
         self._standing = [self._links[name] for name in standing]
+        self._base_stands = self.arm.base in standing
+        self._root_in_still_base = np.linalg.inv(self._link_pose(self._base))
         self._free_links = [link for name, link in self._links.items() if name not in standing]
         self._self_pairs = [
             (self._links[a], self._links[b])
@@ -188,9 +193,19 @@ class BulletWorld:
 
     def _read(self) -> None:
         states = self._p.getJointStates(self._body, self._moving, physicsClientId=self._client)
-        self._q, self._qd, _, self._motor_torque = zip(*states, strict=True)
-        of_arm = [states[i] for i in self._of_arm]
-        self._state = np.array([s[0] for s in of_arm]), np.array([s[1] for s in of_arm])
+        q, qd, _, torque = zip(*states, strict=True)
+        n = len(self._arm_joints)
+        self._state, self._motor_torque = (np.array(q[:n]), np.array(qd[:n])), torque[:n]
+        self._held_state = list(q[n:]), list(qd[n:])
+
+    def _link_pose(self, link: int) -> NDArray[np.float64]:
+        """Pose of a link's frame (not of its centre of mass) in the root's frame."""
+        if link == -1:
+            return np.eye(4)
+        state = self._p.getLinkState(self._body, link, computeForwardKinematics=True, physicsClientId=self._client)
+        x, y, z = state[4]
+        xx, xy, xz, yx, yy, yz, zx, zy, zz = self._p.getMatrixFromQuaternion(state[5])
+        return np.array((xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z, 0.0, 0.0, 0.0, 1.0)).reshape(4, 4)
 
 
 def _pybullet() -> ModuleType:

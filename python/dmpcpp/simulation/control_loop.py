@@ -26,8 +26,10 @@ Drive = Callable[[Simulator, Array], tuple[Array, Array]]
 def by_torque(limit: Array) -> Drive:
     """Commands are torques; they are clipped at ``limit`` (n,) Nm."""
 
+    lowest = -limit
+
     def drive(plant: Simulator, demand: Array) -> tuple[Array, Array]:
-        torque = np.minimum(np.maximum(demand, -limit), limit)
+        torque = np.minimum(np.maximum(demand, lowest), limit)
         plant.apply_torque(torque)
         plant.step()
         return demand, torque
@@ -64,7 +66,8 @@ class ControlLoop:
             if k % self.hold == 0:
                 command = self.controller.act(reference, k, seen)
             recorder.torques(k, *self.drive(plant, command))
-            recorder.contacts += [(k, contact) for contact in plant.contacts()]
+            for contact in plant.contacts():
+                recorder.contacts.append((k, contact))
             if progress and ((k + 1) % _PROGRESS_STEPS == 0 or k + 1 == total):
                 progress(k + 1, total)
 
@@ -83,7 +86,8 @@ class Recorder:
     def state(self, k: int, engine: Simulator) -> bool:
         """Record where the arm is; False if that is not finite."""
         position, velocity = engine.state()
-        if not math.isfinite(position.sum() + velocity.sum()):  # one bad number spoils the sum
+        # One bad number spoils the sum, and Python adds up a handful sooner than numpy.
+        if not math.isfinite(sum(position.tolist()) + sum(velocity.tolist())):
             return False
         arrays, self.done = self._arrays, k + 1
         arrays["position"][k], arrays["velocity"][k] = position, velocity
