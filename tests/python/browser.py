@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -28,9 +28,20 @@ class Seen:
 
 
 def look(
-    place: Path | str, folder: Path, *, seconds: float, scripts: dict[str, str] | None = None, size: str = "1280,2000"
+    place: Path | str,
+    folder: Path,
+    *,
+    until: Callable[[Seen], bool],
+    scripts: dict[str, str] | None = None,
+    size: str = "1280,2000",
+    media: str = "screen",
+    patience: float = 240.0,
 ) -> Seen:
-    """Open a file or an address, wait, run scripts in it and take its picture; skips where there is no Chromium."""
+    """Open a file or an address, and run scripts in it and take its picture again and again until it is as wanted.
+
+    `media` is "screen" or "print". A page that is not as wanted after `patience` [s] is returned as it is. Skips
+    where there is no Chromium.
+    """
     connect = pytest.importorskip("websockets.sync.client").connect
     with _chromium(folder, size) as address, connect(address, max_size=None) as socket:
         page = _Page(socket)
@@ -38,15 +49,16 @@ def look(
         page.session = page.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Network", "Runtime", "Log", "Page"):
             page.call(f"{domain}.enable")
+        page.call("Emulation.setEmulatedMedia", media=media)
         page.call("Page.navigate", url=place if isinstance(place, str) else place.resolve().as_uri())
-        page.listen(seconds)
-        seen = Seen()
-        for name, script in (scripts or {}).items():
-            answer = page.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
-            seen.values[name] = answer["result"].get("value")
-        seen.picture = base64.b64decode(page.call("Page.captureScreenshot", format="png")["data"])
-        seen.requests, seen.complaints = page.requests(), page.complaints()
-        return seen
+        end = time.monotonic() + patience
+        while True:
+            page.listen(1.0)
+            seen = Seen(values={name: page.evaluate(script) for name, script in (scripts or {}).items()})
+            seen.picture = base64.b64decode(page.call("Page.captureScreenshot", format="png")["data"])
+            seen.requests, seen.complaints = page.requests(), page.complaints()
+            if until(seen) or time.monotonic() > end:
+                return seen
 
 
 class _Page:
@@ -65,6 +77,11 @@ class _Page:
                 assert "error" not in answer, answer
                 return answer["result"]
             self._events.append(answer)
+
+    def evaluate(self, script: str) -> Any:
+        """Return what a script gives; None where it fails, as before the page is there."""
+        answer = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
+        return answer["result"].get("value")
 
     def listen(self, seconds: float) -> None:
         end = time.monotonic() + seconds

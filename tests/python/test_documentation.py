@@ -13,7 +13,7 @@ DOCS = Path(__file__).resolve().parents[2] / "docs"
 
 @pytest.mark.slow
 def test_the_documentation_is_built_without_a_warning(tmp_path):
-    for package in ("sphinx", "myst_parser", "furo"):
+    for package in ("sphinx", "myst_nb", "furo"):
         pytest.importorskip(package)
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", DOCS, tmp_path / "html"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
@@ -21,6 +21,7 @@ def test_the_documentation_is_built_without_a_warning(tmp_path):
     page = (tmp_path / "html" / "python-api.html").read_text()
     for name in ("PoseDmp", "imitate", "imitate_many", "Session", "replay_page"):
         assert f'<span class="pre">{name}</span>' in page, name
+    assert "mm RMSE" in (tmp_path / "html" / "notebooks" / "01_goal_and_tempo.html").read_text()
 
 
 def test_every_page_stands_in_the_index():

@@ -97,3 +97,24 @@ def test_without_matplotlib_the_error_says_what_to_install(tmp_path, monkeypatch
         monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(MissingDependency, match=r"dmpcpp\[plot\]"):
         draw(tmp_path / "a.png")
+
+
+def test_a_body_is_lit_where_it_is_seen_and_hides_nothing_that_is_drawn_after_it(tmp_path):
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+    quads = [(3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]  # seen from outside
+    box = corners[[[q[i], q[j], q[k]] for q in quads for i, j, k in ((0, 1, 2), (0, 2, 3))]]
+    page = plot.figure(5, 5)
+    axes = plot.shape(page.add_subplot(projection="3d"), box)
+    (body,) = axes.collections
+    assert len(body.get_facecolor()) == 6  # two triangles for each of the three sides in view
+    axes.plot([0.5, 0.5], [0.5, 0.5], [0.0, 1.0], color="#D55E00", linewidth=4, zorder=3)
+    assert coloured(pixels(plot.save(page, tmp_path / "box.png")), "#D55E00") > 300
+
+
+def test_the_same_page_gives_the_same_bytes():
+    def drawn():
+        page = plot.figure(3, 3)
+        plot.phase(page.add_subplot(), np.linspace(0, 1, 9), np.linspace(1, 0, 9))
+        return plot.png(page)
+
+    assert drawn() == drawn()

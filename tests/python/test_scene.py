@@ -17,7 +17,8 @@ def drawn_tip(shown, arm):
     root = np.eye(4)
     root[:3, 3] = shown._root.position
     root[:3, :3] = Rotation.from_quat(np.asarray(shown._root.wxyz)[[1, 2, 3, 0]]).as_matrix()
-    return root @ shown._model.get_transform(arm.tip, shown._model.base_link, collision_geometry=shown._collision)
+    model, collision = shown._shape.model, shown._shape.collision
+    return root @ model.get_transform(arm.tip, model.base_link, collision_geometry=collision)
 
 
 @pytest.mark.parametrize("name, base", [("panda", ""), ("iiwa", ""), ("xarm6", ""), ("panda", "panda_link2")])
@@ -41,3 +42,22 @@ def test_joints_that_are_too_few_are_refused():
         shown = ShownArm(server, arms.find("panda"))
         with pytest.raises(InvalidArgument, match=r"joints: shape \(2,\), expected \(7,\)"):
             shown.move([0.0, 0.0])
+
+
+@pytest.mark.parametrize("base", ["", "panda_link2"])
+def test_the_shape_on_paper_is_where_the_kinematics_say(base):
+    from dmpcpp.scene import triangles
+
+    panda = arms.find("panda")
+    panda = Arm.from_urdf(panda.urdf, base=base or panda.base, tip=panda.tip, folder=panda.folder)
+    middle = 0.5 * (panda.lower + panda.upper)
+    moved = middle + 0.2 * np.arange(panda.joint_count) / panda.joint_count
+    shapes = triangles(panda, [middle, moved])
+    assert shapes.ndim == 4 and shapes.shape[0] == 2 and shapes.shape[2:] == (3, 3)
+    for shape, joints in zip(shapes, (middle, moved), strict=True):
+        hand = panda.forward_kinematics(joints)
+        beside = (shape.reshape(-1, 3) - hand[:3, 3]) @ hand[:3, :3]  # as the hand sees it
+        near = beside[np.linalg.norm(beside, axis=1) < 0.15]
+        assert 0.09 < near[:, 2].max() < 0.13  # the tips of its fingers
+    with pytest.raises(InvalidArgument, match=r"joints: shape \(2,\)"):
+        triangles(panda, [0.0, 0.0])

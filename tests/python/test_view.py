@@ -134,7 +134,8 @@ def test_the_page_opens_without_a_complaint(model, tmp_path):
     try:
         assert told.wait(60)
         text = {"text": "document.body.innerText"}
-        seen = look(addresses[0], tmp_path, seconds=12, scripts=text, size="1200,800")
+        shown = lambda seen: "feasible" in str(seen.values["text"])  # noqa: E731
+        seen = look(addresses[0], tmp_path, until=shown, scripts=text, size="1200,800")
     finally:
         stop.set()
         thread.join()

@@ -8,8 +8,8 @@ differs in its stroke as well.
 
 from dmpcpp.plot.execution import ErrorCurve, angle_error, paths, picture, position_error
 from dmpcpp.plot.learning import phase, spread
-from dmpcpp.plot.page import figure, save, svg
-from dmpcpp.plot.robot import joint_shares
+from dmpcpp.plot.page import figure, png, save, svg
+from dmpcpp.plot.robot import joint_shares, shape
 from dmpcpp.plot.series import activations, coordinates, errors_over_noise, path_3d, rotation_entries, series_errors
 
 __all__ = [
@@ -24,10 +24,12 @@ __all__ = [
     "paths",
     "phase",
     "picture",
+    "png",
     "position_error",
     "rotation_entries",
     "save",
     "series_errors",
+    "shape",
     "spread",
     "svg",
 ]

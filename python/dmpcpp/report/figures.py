@@ -1,7 +1,8 @@
-"""The figures of a report, each an SVG element."""
+"""The figures of a report, each an element of HTML: SVG, and an image where there are thousands of faces."""
 
 from __future__ import annotations
 
+import base64
 from typing import Any
 
 import numpy as np
@@ -9,19 +10,21 @@ from numpy.typing import NDArray
 
 from dmpcpp import _core, plot
 from dmpcpp.report.run_folder import RunFolder
+from dmpcpp.scene import triangles
 
 Array = NDArray[np.float64]
 
-__all__ = ["coordinates", "demonstrations", "errors", "joints", "path", "phase_and_kernels", "rotation"]
+__all__ = ["coordinates", "demonstrations", "errors", "joints", "path", "phase_and_kernels", "rotation", "still"]
 
-_WIDE = 10.5  # inches
+_WIDE = 9.0  # inches: text is then as large as the page's, on the screen and on paper
 _TIMES = 400
+_LETTERS = 70  # of a legend's names in one row
 
 
 def path(run: RunFolder) -> str:
     """Draw the path in 3-D: demonstrated, planned, executed."""
-    page = plot.figure(_WIDE, 5.6)
-    axes = page.add_axes((0.0, 0.0, 1.0, 0.95), projection="3d")
+    page = plot.figure(_WIDE, 4.9)
+    axes = page.add_axes((0.0, 0.09, 1.0, 0.85), projection="3d")
     record = run.record
     plot.paths(
         axes,
@@ -35,8 +38,8 @@ def path(run: RunFolder) -> str:
 
 def coordinates(run: RunFolder) -> str:
     """Draw x, y and z over time."""
-    page = plot.figure(_WIDE, 5.2)
-    cells = page.subplots(3, 1, sharex=True, gridspec_kw={"left": 0.08, "right": 0.98, "top": 0.93, "bottom": 0.1})
+    page = plot.figure(_WIDE, 4.7)
+    cells = page.subplots(3, 1, sharex=True, gridspec_kw={"left": 0.09, "right": 0.985, "top": 0.93, "bottom": 0.1})
     time, original, imitated = _motions(run)
     positions = {name: pose[:, :3, 3] for name, pose in imitated.items()}
     plot.coordinates(cells, time, original[:, :3, 3], positions, ("x [m]", "y [m]", "z [m]"))
@@ -46,7 +49,7 @@ def coordinates(run: RunFolder) -> str:
 
 def rotation(run: RunFolder) -> str:
     """Draw the nine entries of the rotation matrix over time: they have no jump, whatever the motion."""
-    page = plot.figure(_WIDE, 5.6)
+    page = plot.figure(_WIDE, 5.0)
     spaces = {"left": 0.07, "right": 0.98, "top": 0.93, "bottom": 0.09, "wspace": 0.28}
     cells = page.subplots(3, 3, sharex=True, gridspec_kw=spaces)
     time, original, imitated = _motions(run)
@@ -58,9 +61,9 @@ def rotation(run: RunFolder) -> str:
 
 def errors(run: RunFolder) -> str:
     """Draw position and angle errors of every stage over time, on logarithmic axes."""
-    page = plot.figure(_WIDE, 5.0)
+    page = plot.figure(_WIDE, 4.6)
     above, below = page.subplots(
-        2, 1, sharex=True, gridspec_kw={"left": 0.08, "right": 0.98, "top": 0.93, "bottom": 0.1}
+        2, 1, sharex=True, gridspec_kw={"left": 0.09, "right": 0.985, "top": 0.93, "bottom": 0.1}
     )
     plot.position_error(above, run.record.errors)
     plot.angle_error(below, run.record.errors)
@@ -78,8 +81,8 @@ def joints(run: RunFolder) -> str:
         "velocity [%]": _share(record.velocity, arm.velocity_limit),
         "torque [%]": _share(record.torque, arm.effort_limit),
     }
-    page = plot.figure(_WIDE, 6.6)
-    cells = page.subplots(3, 1, sharex=True, gridspec_kw={"left": 0.08, "right": 0.98, "top": 0.92, "bottom": 0.08})
+    page = plot.figure(_WIDE, 6.2)
+    cells = page.subplots(3, 1, sharex=True, gridspec_kw={"left": 0.09, "right": 0.985, "top": 0.9, "bottom": 0.08})
     for axes, (label, share) in zip(cells, shares.items(), strict=True):
         plot.joint_shares(axes, record.joint_time, share, arm.joint_names, label)
     cells[-1].set_xlabel("time [s]; before 0 the arm runs up from rest")
@@ -91,9 +94,9 @@ def phase_and_kernels(run: RunFolder) -> str:
     """Draw the phase variable and the kernels over the motion's time."""
     share = np.linspace(0.0, 1.0, 300)
     time = share * run.plan.time[-1]
-    page = plot.figure(_WIDE, 3.8)
+    page = plot.figure(_WIDE, 3.5)
     above, below = page.subplots(
-        2, 1, sharex=True, gridspec_kw={"left": 0.08, "right": 0.98, "top": 0.97, "bottom": 0.13}
+        2, 1, sharex=True, gridspec_kw={"left": 0.09, "right": 0.985, "top": 0.97, "bottom": 0.13}
     )
     plot.phase(above, time, np.exp(-run.model.options.alpha_x * share))
     kernels = run.model.activations(share)
@@ -110,12 +113,31 @@ def demonstrations(run: RunFolder) -> str:
     phase = record.demonstrated_time / record.demonstrated_time[-1]
     shown = np.linspace(0.0, 1.0, _TIMES)
     mean = middle.at(shown * middle.duration).position
-    page = plot.figure(_WIDE, 4.6)
-    cells = page.subplots(3, 1, sharex=True, gridspec_kw={"left": 0.08, "right": 0.98, "top": 0.92, "bottom": 0.11})
+    page = plot.figure(_WIDE, 4.3)
+    cells = page.subplots(3, 1, sharex=True, gridspec_kw={"left": 0.09, "right": 0.985, "top": 0.92, "bottom": 0.11})
     found = ((phase, record.demonstrated_pose[:, :3, 3]),)
     plot.spread(cells, found, (shown, mean), np.full(3, noise), ("x [m]", "y [m]", "z [m]"))
     _legend(page, cells[0])
     return plot.svg(page)
+
+
+def still(run: RunFolder) -> str:
+    """Draw the arm at the start, half-way and at the end, beside the path: for paper, where nothing moves."""
+    record = run.record
+    hand, tool = record.demonstrated_pose[:, :3, 3], record.executed_pose[:, :3, 3]
+    moments = [0, len(record.executed_time) // 2, -1]
+    shapes = triangles(record.arm, record.executed_joints[moments])
+    page = plot.figure(_WIDE, 3.6)
+    for k, (moment, shape) in enumerate(zip(moments, shapes, strict=True)):
+        axes = page.add_axes((0.32 * k, 0.04, 0.32, 0.88), projection="3d", facecolor="none")
+        plot.shape(axes, shape, around=np.concatenate([shapes.reshape(-1, 3), hand, tool]))
+        axes.plot(*hand[_few(len(hand))].T, color="#E69F00", linewidth=2.4, zorder=3, label="demonstrated")
+        axes.plot(*tool[_few(len(tool))].T, color="#1A1A1A", linewidth=1.0, zorder=4, label="executed")
+        axes.set_title(f"{record.executed_time[moment]:.2f} s", fontsize=9, y=0.97)
+    _legend(page, axes)
+    return (
+        f'<img alt="The arm at three moments" src="data:image/png;base64,{base64.b64encode(plot.png(page)).decode()}">'
+    )
 
 
 def _motions(run: RunFolder) -> tuple[Array, Array, dict[str, Array]]:
@@ -146,4 +168,5 @@ def _share(values: Array, limit: Array) -> Array:
 
 def _legend(page: Any, axes: Any) -> None:
     lines, labels = axes.get_legend_handles_labels()
-    page.legend(lines, labels, loc="upper left", ncols=len(lines), frameon=False, fontsize=8.5)
+    rows = 1 + len("".join(labels)) // _LETTERS
+    page.legend(lines, labels, loc="upper left", ncols=-(-len(lines) // rows), frameon=False, fontsize=8.5)

@@ -24,6 +24,7 @@ p, ul, ol { margin: .5rem 0; max-width: 52rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .87rem; margin: .7rem 0; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .2rem .8rem .2rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
+.checks td:nth-child(3), .checks td:nth-child(4), .numbers td { white-space: nowrap; }
 th { color: var(--faint); font-weight: 600; }
 table.numbers th:not(:first-child), table.numbers td:not(:first-child), table.checks td:nth-child(3),
 table.checks td:nth-child(4), table.checks th:nth-child(3), table.checks th:nth-child(4) { text-align: right; }
@@ -33,13 +34,21 @@ figure svg { width: 100%; height: auto; display: block; }
 figcaption { color: var(--faint); font-size: .87rem; }
 iframe { width: 100%; height: 33rem; border: 1px solid var(--line); border-radius: .4rem; background: #fff; }
 pre { background: #f4f6f8; padding: .8rem 1rem; overflow-x: auto; font-size: .84rem; border-radius: .4rem; }
+figure img { width: 100%; height: auto; display: block; }
+.paper { display: none; }
 @media print {
-  @page { size: A4; margin: 15mm; }
-  body { max-width: none; padding: 0; font-size: 10pt; }
+  @page { size: A4; margin: 14mm 15mm; }
+  html { font-size: 9.5pt; }
+  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  body { max-width: none; padding: 0; font-size: 9.5pt; }
+  h2 { margin-top: 1.4rem; break-after: avoid; }
+  tr, figure { break-inside: avoid; }
+  .wide { overflow: visible; }
   .screen { display: none; }
+  .paper { display: block; }
   section { break-inside: avoid; }
   #verdict, #repeat, #history { break-inside: auto; }
-  pre { white-space: pre-wrap; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 }
 """
 

@@ -102,10 +102,12 @@ def scene(run: RunFolder) -> str:
         demonstrated=record.demonstrated_pose,
     )
     return (
-        '<section id="scene" class="screen"><h2>The motion</h2>'
-        f'<iframe title="The arm replays the motion" srcdoc="{escape(page)}"></iframe>'
-        "<p>Orange: the demonstrated hand and its path. Black: the path of the tool, as executed. Drag to turn, scroll "
-        "to come nearer. The arm is drawn by the shapes that it collides with.</p></section>"
+        '<section id="scene"><h2>The motion</h2>'
+        f'<iframe class="screen" title="The arm replays the motion" srcdoc="{escape(page)}"></iframe>'
+        f'<figure class="paper">{figures.still(run)}</figure>'
+        "<p>Orange: the demonstrated hand and its path. Black: the path of the tool, as executed. "
+        '<span class="screen">Drag to turn, scroll to come nearer. </span>'
+        "The arm is drawn by the shapes that it collides with.</p></section>"
     )
 
 

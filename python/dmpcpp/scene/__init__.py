@@ -1,4 +1,5 @@
-"""An arm in a browser, by viser: shown at any joints, beside paths; as a page that stands alone or served live.
+"""An arm in a browser, by viser: shown at any joints, beside paths; as a page that stands alone or served live;
+and its shape for pictures on paper.
 
 viser and yourdfpy (the extra `view`) are imported when they are first needed; without them `MissingDependency` is
 raised. Shown are the collision meshes: a tenth of the size of what is made for rendering, and what is checked.
@@ -7,5 +8,6 @@ raised. Shown are the collision meshes: a tenth of the size of what is made for 
 from dmpcpp.scene.replay import replay_page
 from dmpcpp.scene.robot import ShownArm
 from dmpcpp.scene.server import serving
+from dmpcpp.scene.shape import triangles
 
-__all__ = ["ShownArm", "replay_page", "serving"]
+__all__ = ["ShownArm", "replay_page", "serving", "triangles"]

@@ -87,7 +87,7 @@ def look_at(server: ViserServer, points: Array) -> None:
     """Begin with arm and path (K, 3) [m] in the picture."""
     corners = np.vstack([points, np.zeros(3)])
     middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
-    away = 0.75 + 0.9 * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    away = 0.6 + 0.75 * float(np.linalg.norm(np.ptp(corners, axis=0)))
     side = np.cross([0.0, 0.0, 1.0], middle)
     side = side / np.linalg.norm(side) if np.linalg.norm(side) > 1e-6 else np.array([0.0, -1.0, 0.0])
     ahead = np.array([side[1], -side[0], 0.0])
