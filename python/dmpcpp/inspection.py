@@ -25,7 +25,7 @@ from dmpcpp.recordings.markers import Markers
 from dmpcpp.recordings.reader import Reader
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.registry import prepared
-from dmpcpp.recordings.rigid_body import rigid_body
+from dmpcpp.recordings.rigid_body import of_markers
 from dmpcpp.recordings.stated import Stated
 
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
@@ -173,7 +173,7 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
     if names is None:
         needed["markers"] = "three or more that sit on one rigid body"
     else:
-        bodies = (_report(reader.call(lambda _: rigid_body(found, names, body), path)),)
+        bodies = (_report(reader.call(lambda _: of_markers(found, names, body, said.fixed_orientation), path)),)
     return Inspection(
         source=path.name,
         format=reader.name,

@@ -151,7 +151,10 @@ def test_the_command_leaves_with_2_and_one_line_where_the_file_can_not_be_read(t
     path = table(tmp_path / "a.csv", lost=[7])
     done = run(path)
     assert done.returncode == 2
-    assert done.stderr == "dmpcpp: a.csv: line 9, column 'x': an empty cell, expected a number.\n"
+    assert done.stderr == (
+        "dmpcpp: a.csv: line 9, column 'x': an empty cell, expected a number. If this marks a lost sample, state "
+        "missing='empty'.\n"
+    )
     assert run(path, "--missing", "empty").returncode == 0
     assert run(path, "--body", "foot").returncode == 2
     assert run(tmp_path / "nix.csv").returncode == 2

@@ -144,7 +144,7 @@ def test_an_unknown_body_is_refused_with_those_that_exist(tmp_path):
 
 def test_a_statement_that_the_format_does_not_take_is_refused(tmp_path):
     path = write_csv(tmp_path / "a.tum", rows(), [], " ")
-    with pytest.raises(InvalidArgument, match="quat_order: the format 'tum' does not take it; it takes: unit"):
+    with pytest.raises(InvalidArgument, match="quat_order: the format 'tum' does not take it; it takes: missing, unit"):
         recordings.load(path, quat_order="wxyz")
 
 
@@ -372,7 +372,7 @@ def test_a_large_range_is_accepted_when_the_caller_insists(tmp_path):
 def test_an_unknown_unit_is_refused(tmp_path):
     path = write_csv(tmp_path / "a.tum", rows(), [], " ")
     for unit in ("furlong", -1.0, True, float("nan")):
-        with pytest.raises(InvalidArgument, match=r"unit: .*, expected one of m, cm, mm or a positive factor"):
+        with pytest.raises(InvalidArgument, match=r"unit: .*, expected one of m, cm, mm, in or a positive factor"):
             recordings.load(path, unit=unit)
 
 
@@ -453,7 +453,7 @@ def test_cells_that_are_empty_missing_or_no_number_are_named(tmp_path):
         (dict.fromkeys(HEADER, "nix"), "no column 'nix' in the header"),
         (dict.fromkeys(HEADER, -1), "columns: -1, expected"),
         ({**dict.fromkeys(HEADER, 0), "w": 3}, "columns: unknown 'w'"),
-        (dict.fromkeys(HEADER, 99), "line 1, column 99: the line ends after 8 cells"),
+        (dict.fromkeys(HEADER, 99), "line 2, column 99: the line ends after 8 cells"),
     ],
 )
 def test_stated_columns_that_do_not_exist_are_refused(tmp_path, columns, message):
@@ -551,7 +551,7 @@ def test_hand_guided_pouring_reads_by_index_in_centimetres(recorded):
     for index in (None, 9, -1, "a"):
         with pytest.raises(InvalidArgument, match=r"expected 0 to 8: the array .* holds 9 demonstrations"):
             recordings.load(path, index=index, **stated)
-    with pytest.raises(InvalidArgument, match="State unit='mm' or 'cm'"):
+    with pytest.raises(InvalidArgument, match="State unit='mm', 'cm' or 'in'"):
         recordings.load(path, index=0, rate=100.0, quat_order="wxyz")
 
 
@@ -620,10 +620,10 @@ def test_lost_samples_of_an_array_are_gaps_once_stated(tmp_path):
     assert np.flatnonzero(recordings.load(tmp_path / "a.npz", missing="nan").missing).tolist() == [5]
 
 
-@pytest.mark.parametrize("missing", ["none", True, float("inf")])
+@pytest.mark.parametrize("missing", ["", True, float("inf")])
 def test_an_unknown_mark_of_lost_samples_is_refused(tmp_path, missing):
     path = write_csv(tmp_path / "a.csv", rows(), HEADER)
-    with pytest.raises(InvalidArgument, match=r"missing: .*, expected 'empty', 'nan' or a number"):
+    with pytest.raises(InvalidArgument, match=r"missing: .*, expected 'empty', 'nan', another word, or a number"):
         recordings.load(path, missing=missing)
 
 

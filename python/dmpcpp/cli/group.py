@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from dmpcpp import __version__
+from dmpcpp.cli.recording_options import in_flags
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
 WRONG_INPUT, FAILED, INTERRUPTED = 2, 3, 130
@@ -21,11 +22,16 @@ class _Group(click.Group):
         try:
             return super().invoke(ctx)
         except (InvalidArgument, MissingDependency, OSError) as error:
-            click.echo(f"dmpcpp: {error}", err=True)
+            click.echo(f"dmpcpp: {in_flags(str(error), self._options(ctx))}", err=True)
             ctx.exit(WRONG_INPUT)
         except KeyboardInterrupt:
             click.echo("dmpcpp: interrupted.", err=True)
             ctx.exit(INTERRUPTED)
+
+    def _options(self, ctx: click.Context) -> set[str]:
+        """Return the names of the options of the command that runs."""
+        command = self.get_command(ctx, ctx.invoked_subcommand or "")
+        return {parameter.name or "" for parameter in command.params} if command else set()
 
 
 @click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli.group import FAILED
-from dmpcpp.cli.recording_options import flag, recording_options, taken_recording
+from dmpcpp.cli.recording_options import flag, in_flags, recording_options, taken_recording
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -57,7 +57,7 @@ def _print(found: Inspection) -> None:
         console.print(_markers_table(found))
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
         for name, text in entries.items():
-            console.print(f"{title}: {flag(name)}: {text}", markup=False, soft_wrap=True)
+            console.print(f"{title}: {flag(name)}: {in_flags(text)}", markup=False, soft_wrap=True)
     for problem in found.problems:
         console.print(problem, style="bold red", markup=False, soft_wrap=True)
     verdict = "ready to be learned" if found.ok else "not ready to be learned"

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import click
 
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["flag", "recording_options", "taken_recording"]
+__all__ = ["flag", "in_flags", "recording_options", "taken_recording"]
 
 _OPTIONS = (
     click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several."),
@@ -17,7 +18,7 @@ _OPTIONS = (
     click.option(
         "--format", "format", metavar="NAME", help="The file's format; by default told from its name and content."
     ),
-    click.option("--unit", metavar="m|cm|mm|F", help="Unit of lengths; a number is metres per unit."),
+    click.option("--unit", metavar="m|cm|mm|in|F", help="Unit of lengths; a number is metres per unit."),
     click.option("--time-unit", metavar="s|ms|us|ns|F", help="Unit of times; a number is seconds per unit."),
     click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times."),
     click.option("--up-axis", "--up", metavar="x|y|z", help="The recording's axis that points up."),
@@ -25,7 +26,7 @@ _OPTIONS = (
     click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
     click.option("--euler-order", metavar="ORDER", help="Of columns rx, ry, rz: ZYX moving axes, zyx fixed ones."),
     click.option("--angle-unit", metavar="deg|rad", help="Of columns rx, ry, rz."),
-    click.option("--missing", metavar="empty|nan|N", help="How a table or array writes a sample that was lost."),
+    click.option("--missing", metavar="empty|nan|WORD|N", help="How a table or array writes a sample that was lost."),
     click.option(
         "--columns",
         metavar="time=..,x=..",
@@ -33,6 +34,18 @@ _OPTIONS = (
     ),
     click.option("--delimiter", metavar="C", help="Between the cells of a table; 'tab' for a tab."),
     click.option("--skip-lines", type=int, metavar="N", help="Lines before the header line of a table."),
+    click.option(
+        "--fixed-orientation",
+        is_flag=True,
+        default=None,
+        help="Take a position, or one marker, without an orientation; the tool's is held fixed.",
+    ),
+    click.option(
+        "--mend-times",
+        is_flag=True,
+        default=None,
+        help="Sort samples by their times, and of several at one time keep the first.",
+    ),
     click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0."),
 )
 _NAMES = (
@@ -51,7 +64,14 @@ _NAMES = (
     "columns",
     "delimiter",
     "skip_lines",
+    "fixed_orientation",
+    "mend_times",
     "index",
+)
+
+
+_PARAMETER = re.compile(
+    rf"\b(?P<name>{'|'.join(_NAMES)})=(?P<value>'[^']*'|\{{[^}}]*\}}|\[[^\]]*\]|\.\.\.|-?[\w.+-]*\w)"
 )
 
 
@@ -80,6 +100,23 @@ def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
 def flag(parameter: str) -> str:
     """Return the option that states a parameter of the library: up_axis is --up-axis."""
     return "--" + parameter.replace("_", "-")
+
+
+def in_flags(message: str, options: Iterable[str] = _NAMES) -> str:
+    """Return a message of the library with parameters as options of the command line: unit='cm' is --unit cm.
+
+    `options` are the names of the options that the command has.
+    """
+    return _PARAMETER.sub(lambda match: _option(match) if match["name"] in options else match[0], message)
+
+
+def _option(match: re.Match[str]) -> str:
+    value = match["value"]
+    if value == "True":
+        return flag(match["name"])
+    if value[0] in "{[":
+        value = re.sub(r"[{}\[\]' ]", "", value).replace(":", "=")
+    return f"{flag(match['name'])} {value.strip(chr(39))}"
 
 
 def _number_or_word(text: str) -> str | float:

@@ -24,7 +24,7 @@ from dmpcpp.recordings.markers import Markers
 from dmpcpp.recordings.reader import Reader
 from dmpcpp.recordings.recording import Recording
 from dmpcpp.recordings.registry import prepared, reader_of, summaries
-from dmpcpp.recordings.rigid_body import rigid_body
+from dmpcpp.recordings.rigid_body import of_markers, rigid_body
 from dmpcpp.recordings.stated import Stated
 
 __all__ = [
@@ -98,7 +98,8 @@ def load(
     format : str, optional
         One of `formats()`; left out, the file's name and first bytes decide; where they do not, an error.
     markers : sequence of str, optional
-        Three or more markers that sit on one rigid body, for formats that hold markers; see `rigid_body`.
+        Three or more markers that sit on one rigid body, for formats that hold markers; see `rigid_body`. Or one,
+        with `fixed_orientation=True`.
     **stated
         What the file does not say: the fields of `Stated`. Each format takes those that it leaves open.
 
@@ -140,4 +141,4 @@ def clip(name: str, body: str = "right_hand") -> Recording:
 
 def _rigid_body(path: Path, reader: Reader, names: Sequence[str], body: str | None, said: Stated) -> Recording:
     assert reader.markers is not None
-    return rigid_body(reader.markers(path, said), names, body)
+    return of_markers(reader.markers(path, said), names, body, said.fixed_orientation)

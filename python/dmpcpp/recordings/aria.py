@@ -18,7 +18,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.cells import Cells, split_all
 from dmpcpp.recordings.markers import Markers
 from dmpcpp.recordings.orientation import from_quaternions
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import data_lines, read_text
@@ -117,7 +117,7 @@ def _read(path: Path) -> _File:
 READER = Reader(
     name="aria",
     summary="a Project Aria CSV of hands or of the glasses' trajectory",
-    takes=AXES,
+    takes=COMMON,
     recognises=lambda path, head: _TIME.encode() in head.split(b"\n", 1)[0],
     bodies=bodies,
     read=read,

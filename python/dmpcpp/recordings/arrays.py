@@ -1,7 +1,8 @@
 """NumPy files: poses as (T, 4, 4) matrices, (T, 7) positions and quaternions, or (T, 8) with the time first.
 
-A .npz names its arrays: `pose`, `poses` or the only array of a fitting shape, and `time`, `times` or `t` in
-s, or `rate` in Hz. A .npy holds one array; its rate is stated. A leading axis (N, T, ...) holds N
+A .npz names its arrays: `pose`, `poses` or the only array of a fitting shape, or `position` (T, 3) beside
+`quaternion` (T, 4) or `rotation` (T, 3, 3); and `time`, `times` or `t` in s, or `rate` in Hz. An array (T, 3) holds
+positions without orientations. A .npy holds one array; its rate is stated. A leading axis (N, T, ...) holds N
 demonstrations.
 """
 
@@ -16,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp.errors import FileError, InvalidArgument, NotStated
-from dmpcpp.recordings.orientation import QuatOrder, from_matrices, from_quaternions
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.orientation import HELD_FIXED, from_matrices, from_quaternions, held_fixed, no_turn
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated, times_at_rate
 
@@ -25,7 +26,9 @@ __all__ = ["READER", "bodies", "read", "read_arrays"]
 
 _BODY = "pose"
 _POSE_NAMES = ("pose", "poses")
-_TIME_NAMES = ("time", "times", "t")
+_POSITION_NAMES = ("position", "positions", "pos", "p", "translation")
+_TURN_NAMES = ("quaternion", "quaternions", "quat", "q", "rotation", "rotations", "orientation", "orientations", "R")
+_TIME_NAMES = ("time", "times", "timestamp", "timestamps", "t")
 _LARGEST_ARRAY = 256 * 1024 * 1024  # bytes; a hostile file may claim more than the machine has
 
 
@@ -41,7 +44,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     arrays = {name: array for name, array in read_arrays(path).items() if array.dtype.kind == "f"}
     poses = _chosen(_poses(arrays), stated.index)
     lost = _lost(poses, stated.missing)
-    time, position, rotation, notes = _split(poses, stated.quat_order, lost)
+    time, position, rotation, notes = _split(poses, stated, lost)
     if time is None:
         time = _times(arrays, len(poses), stated.rate)
     if stated.index is not None:
@@ -61,19 +64,41 @@ def _lost(poses: Array, missing: str | float | None) -> NDArray[np.bool_]:
 
 
 def _poses(arrays: dict[str, Array]) -> Array:
-    """Return the array of poses, by its name or as the only one of a fitting shape."""
+    """Return the array of poses: by its name, put together of positions and orientations, or the only one that fits."""
     named = [name for name in _POSE_NAMES if name in arrays]
-    fitting = named or [name for name, a in arrays.items() if a.ndim >= 2 and a.shape[-1] in (4, 7, 8)]
+    if not named and (parts := _parts(arrays)) is not None:
+        return parts
+    fitting = named or [name for name, a in arrays.items() if _fits(a)]
     if len(fitting) != 1:
         held = ", ".join(f"{name} {a.shape}" for name, a in arrays.items()) or "nothing"
         raise InvalidArgument(
-            f"expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8). The file holds: {held}."
+            "expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8), or 'position' (T, 3) beside "
+            f"'quaternion' (T, 4) or 'rotation' (T, 3, 3). The file holds: {held}."
         )
     return arrays[fitting[0]]
 
 
+def _fits(array: Array) -> bool:
+    return array.shape[-2:] == (4, 4) or (array.ndim >= 2 and array.shape[-1] in (3, 7, 8))
+
+
+def _parts(arrays: dict[str, Array]) -> Array | None:
+    """Return the poses (..., T, 7) or (..., T, 4, 4) of an array of positions and one of orientations beside it."""
+    place = next((arrays[name] for name in _POSITION_NAMES if name in arrays), None)
+    turn = next((arrays[name] for name in _TURN_NAMES if name in arrays), None)
+    if place is None or turn is None or place.ndim < 2 or place.shape[-1] != 3:
+        return None
+    if turn.shape == (*place.shape[:-1], 4):
+        return np.concatenate([place, turn], axis=-1)
+    if turn.shape == (*place.shape[:-1], 3, 3):
+        poses = np.zeros((*place.shape[:-1], 4, 4))
+        poses[..., :3, :3], poses[..., :3, 3], poses[..., 3, 3] = turn, place, 1.0
+        return poses
+    return None
+
+
 def _chosen(poses: Array, index: int | None) -> Array:
-    """Return one demonstration: (T, 4, 4), (T, 7) or (T, 8)."""
+    """Return one demonstration: (T, 4, 4), (T, 3), (T, 7) or (T, 8)."""
     single = 3 if poses.shape[-2:] == (4, 4) else 2
     if poses.ndim == single and index is None:
         return poses
@@ -91,14 +116,17 @@ def _chosen(poses: Array, index: int | None) -> Array:
     )
 
 
-def _split(
-    poses: Array, order: QuatOrder | None, lost: NDArray[np.bool_]
-) -> tuple[Array | None, Array, Array, list[str]]:
+def _split(poses: Array, stated: Stated, lost: NDArray[np.bool_]) -> tuple[Array | None, Array, Array, list[str]]:
     """Return time if it is among the columns, position, rotation and what was mended."""
     if poses.ndim == 3:
         _check_bottom_row(np.where(lost[:, None, None], np.eye(4), poses))
         rotation, notes = from_matrices(poses[:, :3, :3], "poses", lost)
         return None, poses[:, :3, 3], rotation, notes
+    if poses.shape[1] == 3:
+        if not stated.fixed_orientation:
+            raise no_turn(f"an array of shape {poses.shape}")
+        return None, poses, held_fixed(lost), [HELD_FIXED]
+    order = stated.quat_order
     if order is None:
         raise NotStated(
             "quat_order",
@@ -182,7 +210,7 @@ def _array(file: BinaryIO, size: int) -> np.ndarray:
 READER = Reader(
     name="arrays",
     summary="a NumPy .npy or .npz of poses: (T, 4, 4), (T, 7) or (T, 8)",
-    takes=("rate", "quat_order", "index", "time_unit", "missing", *AXES),
+    takes=("rate", "quat_order", "index", "time_unit", "missing", "fixed_orientation", *COMMON),
     recognises=lambda path, head: head.startswith(b"\x93NUMPY") or path.suffix.lower() in (".npy", ".npz"),
     bodies=bodies,
     read=read,

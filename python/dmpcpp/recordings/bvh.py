@@ -15,7 +15,7 @@ import numpy as np
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.bvh_skeleton import Joint, skeleton
 from dmpcpp.recordings.cells import Cells, split_all
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import number, read_text
@@ -137,7 +137,7 @@ def _about(axis: int, angle: Array) -> Array:
 READER = Reader(
     name="bvh",
     summary="a BVH skeleton with its motion; unit to be stated",
-    takes=AXES,
+    takes=COMMON,
     recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"HIERARCHY"),
     bodies=bodies,
     read=read,

@@ -15,7 +15,7 @@ import numpy as np
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.c3d_parameters import ByteOrder, Parameters, byte_order, read_parameters
 from dmpcpp.recordings.markers import Markers, distinct
-from dmpcpp.recordings.reader import AXES, marker_reader
+from dmpcpp.recordings.reader import COMMON, marker_reader
 from dmpcpp.recordings.recording import Array, Axis
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import read_bytes
@@ -142,5 +142,5 @@ READER = marker_reader(
     summary="a C3D file of markers",
     recognises=lambda path, head: path.suffix.lower() == ".c3d",
     markers=markers,
-    takes=("rate", *AXES),
+    takes=("rate", "fixed_orientation", *COMMON),
 )

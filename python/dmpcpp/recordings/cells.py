@@ -28,11 +28,17 @@ class Cells:
         Whether an empty cell, or one that a line ends before, is a number that was lost.
     nan : bool
         Whether `nan` is; both become NaN where they are, and are errors where they are not.
+    mark : str
+        Another text that stands for a lost number, case ignored.
+    advice : str
+        What an error about a cell ends with, where the caller could have stated that it marks a lost number.
     """
 
     rows: list[Row]
     blank: bool = False
     nan: bool = False
+    mark: str = ""
+    advice: str = ""
 
     def numbers(self, columns: Sequence[int], names: Sequence[str]) -> Array:
         """Return columns, counted from 0, as numbers (T, len(columns)).
@@ -68,10 +74,13 @@ class Cells:
             if self.blank:
                 return np.nan
             raise InvalidArgument(f"line {line}, {name}: the line ends after {len(cells)} cells.")
-        cell = cells[column]
-        if (self.blank and not cell.strip()) or (self.nan and cell.strip().lower() == "nan"):
+        text = cells[column].strip().lower()
+        if (self.blank and not text) or (self.nan and text == "nan") or (self.mark and text == self.mark):
             return np.nan
-        return number(cell, line, name)
+        try:
+            return number(cells[column], line, name)
+        except InvalidArgument as error:
+            raise InvalidArgument(f"{error}{self.advice.format(text[:20] or 'empty')}") from None
 
 
 def split_all(lines: Iterable[tuple[int, str]], delimiter: str) -> list[Row]:

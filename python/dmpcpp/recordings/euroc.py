@@ -13,7 +13,7 @@ import numpy as np
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.cells import Cells, Row, split, split_all
 from dmpcpp.recordings.orientation import from_quaternions
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import data_lines, read_text
@@ -87,7 +87,7 @@ def _times(rows: list[Row]) -> tuple[Array, int]:
 READER = Reader(
     name="euroc",
     summary="a EuRoC CSV: timestamp, p_x .. q_z, ns and m",
-    takes=AXES,
+    takes=COMMON,
     recognises=lambda path, head: bool(_HEAD.match(head)),
     bodies=bodies,
     read=read,

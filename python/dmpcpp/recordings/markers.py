@@ -92,17 +92,25 @@ class Markers:
     def chosen(self, names: Sequence[str]) -> Markers:
         """Return the markers of these names, in their order.
 
+        A name may leave out the subject in front of it, `WRIST` for `Anna:WRIST`, where only one marker ends so.
+
         Raises
         ------
         InvalidArgument
             One of them is not there; the message lists those that are.
         """
-        unknown = [name for name in names if name not in self.names]
+        whole = {} if isinstance(names, str) else {name: self._whole(name) for name in names}
+        unknown = [name for name in whole if whole[name] not in self.names]
         if unknown or isinstance(names, str):
             asked = ", ".join(map(repr, unknown)) or repr(names)
             raise InvalidArgument(f"markers: no marker {asked}. The file holds: {', '.join(self.names)}.")
-        columns = [self.names.index(name) for name in names]
-        return replace(self, names=tuple(names), position=self.position[:, columns])
+        columns = [self.names.index(whole[name]) for name in names]
+        return replace(self, names=tuple(whole[name] for name in names), position=self.position[:, columns])
+
+    def _whole(self, name: str) -> str:
+        """Return the name of the only marker that a name without its subject can mean; else the name as it is."""
+        ending = [held for held in self.names if held.endswith(f":{name}")]
+        return ending[0] if name not in self.names and len(ending) == 1 else name
 
 
 def distinct(names: Sequence[str]) -> tuple[str, ...]:

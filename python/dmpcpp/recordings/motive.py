@@ -17,7 +17,7 @@ from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.markers import Markers, distinct
 from dmpcpp.recordings.orientation import from_quaternions
-from dmpcpp.recordings.reader import AXES, Reader, no_orientation, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, no_orientation, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import data_lines, read_text
@@ -172,7 +172,7 @@ def _whole(
 READER = Reader(
     name="motive",
     summary="an OptiTrack Motive CSV of rigid bodies, bones or markers",
-    takes=AXES,
+    takes=("fixed_orientation", *COMMON),
     recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf").startswith(b"Format Version,"),
     bodies=bodies,
     read=read,

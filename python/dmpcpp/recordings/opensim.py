@@ -13,7 +13,7 @@ from pathlib import Path
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.pose_columns import pose, stated_columns
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import read_text
@@ -93,7 +93,7 @@ def _columns(row: tuple[int, list[str]], stated: Stated) -> dict[str, int]:
             return header.index(str(column))
         raise InvalidArgument(f"columns: no column {column!r}. The file holds: {held}.")
 
-    return stated_columns(stated.columns, place)
+    return stated_columns(stated.columns, place, bool(stated.fixed_orientation))
 
 
 def _notes(facts: dict[str, str], count: int) -> list[str]:
@@ -110,7 +110,7 @@ def _recognises(path: Path, head: bytes) -> bool:
 READER = Reader(
     name="opensim",
     summary="an OpenSim .mot or .sto of coordinates",
-    takes=("columns", "euler_order", "angle_unit", "missing", *AXES),
+    takes=("columns", "euler_order", "angle_unit", "missing", "fixed_orientation", *COMMON),
     recognises=_recognises,
     bodies=bodies,
     read=read,

@@ -10,7 +10,18 @@ from numpy.typing import NDArray
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.recording import Array
 
-__all__ = ["REFUSE_ABOVE", "WARN_ABOVE", "QuatOrder", "from_euler", "from_matrices", "from_quaternions", "sign_flips"]
+__all__ = [
+    "HELD_FIXED",
+    "REFUSE_ABOVE",
+    "WARN_ABOVE",
+    "QuatOrder",
+    "from_euler",
+    "from_matrices",
+    "from_quaternions",
+    "held_fixed",
+    "no_turn",
+    "sign_flips",
+]
 
 QuatOrder = Literal["xyzw", "wxyz"]
 
@@ -18,6 +29,8 @@ WARN_ABOVE = 1e-3
 """A quaternion's norm (or a matrix's singular value) further from 1 than this deserves a look."""
 REFUSE_ABOVE = 0.1
 """Further off than this it is not a measured rotation: wrong columns, corrupt or filtered data."""
+HELD_FIXED = "no orientation recorded: held fixed, as stated"
+"""What the history says of `held_fixed`."""
 _ROUNDING = 1e-9  # below this nothing is worth a word
 
 
@@ -152,6 +165,20 @@ def from_euler(angles: Array, order: str | None, unit: str | None, missing: NDAr
     _check_finite("angles", angles)
     sorted_angles = angles[:, ["xyz".index(axis) for axis in order.lower()]]
     return _blanked(Rotation.from_euler(order, sorted_angles, degrees=unit == "deg").as_matrix(), missing)
+
+
+def held_fixed(missing: NDArray[np.bool_]) -> Array:
+    """Return the identity (T, 3, 3) for each sample of a motion without orientations; NaN where missing (T,)."""
+    return _blanked(np.tile(np.eye(3), (len(missing), 1, 1)), missing)
+
+
+def no_turn(what: str) -> NotStated:
+    """Return the error for positions without orientations, which an arm's tool has to have."""
+    return NotStated(
+        "fixed_orientation",
+        f"fixed_orientation: {what}: a position and no orientation. State fixed_orientation=True to hold the "
+        "tool's fixed, or give the orientation too.",
+    )
 
 
 def sign_flips(quaternions: Array) -> np.ndarray:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.cells import Cells
-from dmpcpp.recordings.orientation import from_euler, from_quaternions
+from dmpcpp.recordings.orientation import HELD_FIXED, REFUSE_ABOVE, from_euler, from_quaternions, held_fixed, no_turn
 from dmpcpp.recordings.recording import Array
 from dmpcpp.recordings.stated import Stated
 
@@ -19,6 +19,10 @@ __all__ = ["ANGLES", "POSITION", "QUATERNION", "pose", "stated_columns"]
 POSITION = ("x", "y", "z")
 QUATERNION = ("qx", "qy", "qz", "qw")
 ANGLES = ("rx", "ry", "rz")
+
+
+_LEAST_MARK = 999.0  # of numbers that are written in place of a sample: -999, 9999, -9999, ..
+_ADVICE = " If this marks a lost sample, state missing='{}'."
 
 
 def pose(
@@ -30,43 +34,68 @@ def pose(
     ----------
     cells : Cells
     where : mapping
-        From the names of `POSITION` and of `QUATERNION` or `ANGLES` to columns.
+        From the names of `POSITION` and of `QUATERNION`, `ANGLES` or neither to columns.
     called : (column) -> str
         How messages call a column.
     stated : Stated
-        `missing`, `euler_order` and `angle_unit` count here.
+        `missing`, `euler_order`, `angle_unit` and `fixed_orientation` count here.
 
     Raises
     ------
     InvalidArgument
         Naming line and column, or what must be stated (`NotStated`).
     """
-    cells = replace(cells, blank=cells.blank or stated.missing == "empty", nan=cells.nan or stated.missing == "nan")
-    names = (*POSITION, *(QUATERNION if "qx" in where else ANGLES))
+    fixed = "qx" not in where and "rx" not in where
+    names = (*POSITION, *(() if fixed else QUATERNION if "qx" in where else ANGLES))
     columns = [where[name] for name in names]
-    values = cells.numbers(columns, [called(column) for column in columns])
+    values = _marking(cells, stated.missing).numbers(columns, [called(column) for column in columns])
     lost = np.isnan(values).any(axis=1) | _marked(values[:, :3], stated.missing)
+    _check_marks(cells, values, lost, stated.missing)
     values[lost] = np.nan
-    if "qx" in where:
-        rotation, notes = from_quaternions(values[:, 3:], "xyzw", missing=lost)
-    else:
-        rotation, notes = from_euler(values[:, 3:], stated.euler_order, stated.angle_unit, lost), []
+    rotation, notes = _turned(values[:, 3:], lost, stated)
     return values[:, :3], rotation, notes
 
 
-def stated_columns(columns: object, place: Callable[[object], int]) -> dict[str, int]:
+def _turned(values: Array, lost: NDArray[np.bool_], stated: Stated) -> tuple[Array, list[str]]:
+    """Return the rotations (T, 3, 3) of quaternions, angles or no columns (T, 4, 3 or 0), and what was mended."""
+    if values.shape[1] == len(QUATERNION):
+        return from_quaternions(values, "xyzw", missing=lost)
+    if values.shape[1] == len(ANGLES):
+        return from_euler(values, stated.euler_order, stated.angle_unit, lost), []
+    return held_fixed(lost), [HELD_FIXED]
+
+
+def _marking(cells: Cells, missing: object) -> Cells:
+    """Return the cells with what was stated to stand for a lost sample."""
+    if missing is None:
+        return replace(cells, advice=_ADVICE)
+    word = missing.strip().lower() if isinstance(missing, str) else ""
+    return replace(
+        cells,
+        blank=cells.blank or word == "empty",
+        nan=cells.nan or word == "nan",
+        mark=word if word not in ("", "empty", "nan") else "",
+    )
+
+
+def stated_columns(columns: object, place: Callable[[object], int], position_only: bool = False) -> dict[str, int]:
     """Return the columns that the caller stated, "time" among them if it was, by what they hold.
 
     Raises
     ------
     InvalidArgument
-        Names that are missing or unknown, or whatever `place` refuses.
+        Names that are missing or unknown, or whatever `place` refuses; `NotStated` of a position without an
+        orientation, unless it is enough.
     """
     if not isinstance(columns, Mapping):
         raise InvalidArgument(f"columns: {columns!r}, expected a mapping from time, x, y, z, qx, .. to columns.")
-    turn = ANGLES if any(name in columns for name in ANGLES) else QUATERNION
+    turn: tuple[str, ...] = ANGLES if any(name in columns for name in ANGLES) else QUATERNION
     unknown = set(map(str, columns)) - {"time", *POSITION, *turn}
     missing = [name for name in (*POSITION, *turn) if name not in columns]
+    if not unknown and missing == list(turn):
+        if not position_only:
+            raise no_turn("the columns stated")
+        missing = []
     if unknown or missing:
         wrong = f"unknown {', '.join(map(repr, sorted(unknown)))}" if unknown else f"missing {', '.join(missing)}"
         raise InvalidArgument(f"columns: {wrong}; expected time, {', '.join((*POSITION, *turn))}.")
@@ -75,8 +104,23 @@ def stated_columns(columns: object, place: Callable[[object], int]) -> dict[str,
 
 def _marked(position: Array, missing: object) -> NDArray[np.bool_]:
     """Return which rows (T,) hold the number that stands for a lost sample, in all three coordinates."""
-    if missing in (None, "empty", "nan"):
+    if missing is None or (isinstance(missing, str) and missing.strip()):
         return np.zeros(len(position), dtype=bool)
     if isinstance(missing, bool) or not isinstance(missing, int | float) or not np.isfinite(missing):
-        raise InvalidArgument(f"missing: {missing!r}, expected 'empty', 'nan' or a number such as 0.")
+        raise InvalidArgument(f"missing: {missing!r}, expected 'empty', 'nan', another word, or a number such as 0.")
     return np.asarray((position == missing).all(axis=1))
+
+
+def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_], missing: object) -> None:
+    """Refuse a number that stands in all of a pose and can not: the mark of a lost sample that was not stated."""
+    mark = values[:, 0]
+    impossible = (
+        np.abs(2.0 * np.abs(mark) - 1.0) > REFUSE_ABOVE if values.shape[1] == 7 else np.abs(mark) >= _LEAST_MARK
+    )
+    found = ~lost & impossible & (values == mark[:, None]).all(axis=1)
+    if missing is None and found.any():
+        k = int(np.argmax(found))
+        raise InvalidArgument(
+            f"line {cells.rows[k][0]}: {mark[k]:.12g} in every column of the pose. If this marks a lost sample, state "
+            f"missing={mark[k]:.12g}."
+        )

@@ -19,7 +19,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.markers import Markers, distinct
 from dmpcpp.recordings.orientation import from_matrices
-from dmpcpp.recordings.reader import AXES, Reader, no_orientation, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, no_orientation, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated, times_at_rate
 from dmpcpp.recordings.text import data_lines, number, read_text
@@ -149,7 +149,7 @@ def _first(row: tuple[int, list[str]], width: int, key: str) -> int:
 READER = Reader(
     name="qualisys",
     summary="a Qualisys TSV of markers (3D) or rigid bodies (6D)",
-    takes=("rate", *AXES),
+    takes=("rate", "fixed_orientation", *COMMON),
     recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf").startswith((b"NO_OF_FRAMES\t", b"FILE_VERSION\t")),
     bodies=bodies,
     read=read,

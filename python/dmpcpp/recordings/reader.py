@@ -12,9 +12,9 @@ from dmpcpp.recordings.markers import Markers
 from dmpcpp.recordings.recording import Recording
 from dmpcpp.recordings.stated import Stated
 
-__all__ = ["AXES", "Reader", "marker_reader", "no_orientation", "pick_body"]
+__all__ = ["COMMON", "Reader", "marker_reader", "no_orientation", "pick_body"]
 
-AXES = ("unit", "up_axis", "handedness")
+COMMON = ("unit", "up_axis", "handedness", "mend_times")
 """What most formats let the caller state."""
 
 _T = TypeVar("_T")
@@ -71,7 +71,7 @@ def marker_reader(
     summary: str,
     recognises: Callable[[Path, bytes], bool],
     markers: Callable[[Path, Stated], Markers],
-    takes: tuple[str, ...] = AXES,
+    takes: tuple[str, ...] = ("fixed_orientation", *COMMON),
 ) -> Reader:
     """Return the reader of a format that holds markers and no bodies."""
 

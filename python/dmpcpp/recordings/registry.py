@@ -24,6 +24,7 @@ from dmpcpp.recordings import (
 )
 from dmpcpp.recordings.reader import Reader
 from dmpcpp.recordings.stated import Stated
+from dmpcpp.recordings.table_lines import is_data, table_lines
 from dmpcpp.recordings.text import read_bytes
 
 __all__ = ["READERS", "prepared", "reader_of", "summaries"]
@@ -74,7 +75,21 @@ def reader_of(path: str | PathLike[str], format: str | None = None) -> Reader:
     for reader in _ORDERED:
         if reader.recognises(path, head):
             return reader
-    raise NotStated("format", f"{path.name}: the format can not be told. State format=...: {_listed()}.")
+    raise NotStated("format", f"{path.name}: the format can not be told.{_hint(head)} State format=...: {_listed()}.")
+
+
+def _hint(head: bytes) -> str:
+    """Return what to do with a file that looks like a table of numbers, "" of any other."""
+    try:
+        lines = table_lines(head.decode("utf-8-sig"), None)
+    except (InvalidArgument, UnicodeDecodeError):
+        return ""
+    if not lines.rows or not is_data(lines.rows[0][1]):
+        return ""
+    return (
+        f" It looks like a table of {len(lines.rows[0][1])} columns: state columns={{'time': 0, 'x': 1, 'y': 2, "
+        "'z': 3, 'qx': 4, ...} by name or by number from 0."
+    )
 
 
 def prepared(path: str | PathLike[str], format: str | None, stated: dict[str, object]) -> tuple[Reader, Stated]:

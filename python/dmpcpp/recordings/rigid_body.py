@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.markers import Markers
+from dmpcpp.recordings.orientation import HELD_FIXED, held_fixed
 from dmpcpp.recordings.recording import Array, Recording
 
-__all__ = ["fit_poses", "rigid_body"]
+__all__ = ["fit_poses", "of_markers", "rigid_body", "single_marker"]
 
 _LEAST_HEIGHT = 0.05  # of the triangle's longest side: what is flatter gives no turn about that side
 _ROUNDS = 5  # of alignment and mean; the shape settles by orders of magnitude in each
@@ -54,10 +55,14 @@ def rigid_body(
     """
     names = tuple(names) if not isinstance(names, str) else (names,)
     if len(set(names)) < 3 or len(set(names)) < len(names):
-        raise InvalidArgument(f"markers: {', '.join(names) or 'none'}; expected three or more that differ.")
+        raise InvalidArgument(
+            f"markers: {', '.join(names) or 'none'}; expected three or more that differ, or one with "
+            "fixed_orientation=True."
+        )
     if max_residual is not None and not 0.0 < max_residual < np.inf:
         raise InvalidArgument(f"max_residual: {max_residual}, expected a positive length in m.")
     chosen = markers.chosen(names)
+    names = chosen.names
     shape = _shape(chosen)
     rotation, position, residual = fit_poses(shape, chosen.position)
     notes = [*markers.history, f"rigid body of {', '.join(names)}"]
@@ -73,6 +78,40 @@ def rigid_body(
         source=markers.source,
         up_axis=markers.up_axis,
         history=(*notes, *_found(residual)),
+    )
+
+
+def of_markers(
+    markers: Markers, names: Sequence[str], body: str | None = None, fixed_orientation: bool | None = None
+) -> Recording:
+    """Return the `rigid_body` of markers, or where the orientation may be held fixed the `single_marker`.
+
+    Errors are those of the two.
+    """
+    if fixed_orientation and not isinstance(names, str) and len(names) == 1:
+        return single_marker(markers, names[0], body)
+    return rigid_body(markers, names, body)
+
+
+def single_marker(markers: Markers, name: str, body: str | None = None) -> Recording:
+    """Return the motion of one marker, its orientation held fixed (the identity): a point does not turn.
+
+    Raises
+    ------
+    InvalidArgument
+        The marker is unknown, or hardly ever seen.
+    """
+    chosen = markers.chosen([name])
+    missing = chosen.missing[:, 0]
+    lost = f"{int(missing.sum())} of {len(missing)} samples are missing: the marker not seen"
+    return Recording(
+        time=markers.time,
+        position=chosen.position[:, 0],
+        rotation=held_fixed(missing),
+        body=body if body is not None else chosen.names[0],
+        source=markers.source,
+        up_axis=markers.up_axis,
+        history=(*markers.history, HELD_FIXED, *([lost] if missing.any() else [])),
     )
 
 

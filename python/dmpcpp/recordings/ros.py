@@ -17,7 +17,7 @@ import numpy as np
 
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
 from dmpcpp.recordings.orientation import from_quaternions
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Recording
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.world import World
@@ -164,7 +164,7 @@ def _recognises(path: Path, head: bytes) -> bool:
 READER = Reader(
     name="ros",
     summary="a ROS 1 bag, ROS 2 bag folder or MCAP of poses, transforms or odometry",
-    takes=AXES,
+    takes=COMMON,
     recognises=_recognises,
     bodies=bodies,
     read=read,

@@ -12,6 +12,7 @@ from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.markers import Markers
 from dmpcpp.recordings.orientation import QuatOrder
 from dmpcpp.recordings.recording import Array, Axis, Recording
+from dmpcpp.recordings.time_order import in_order
 from dmpcpp.recordings.world import Frame, Handedness, World
 
 __all__ = ["Stated", "times_at_rate"]
@@ -23,11 +24,11 @@ class Stated:
 
     Parameters
     ----------
-    unit : "m", "cm", "mm", metres per unit as a number, or None
+    unit : "m", "cm", "mm", "in", metres per unit as a number, or None
         Of lengths. None: what the file says, metres where it says nothing; then a range above 5 m or below
         0.02 mm is refused as a likely slip. A number is never questioned.
     time_unit : "s", "ms", "us", "ns", seconds per unit as a number, or None
-        None: what the file says, or seconds, and steps outside 10 us .. 1 s are refused as a likely slip.
+        None: what the file says, or seconds, and steps outside 0.2 ms .. 0.4 s are refused as a likely slip.
     up_axis : "x", "y", "z" or None
         The axis of the recording's world that points up. None: what the file says, or unknown.
     handedness : "right", "left" or None
@@ -42,9 +43,9 @@ class Stated:
         one; "xyz" about the axes of the world. For columns `rx`, `ry`, `rz`.
     angle_unit : "deg", "rad" or None
         Of the columns `rx`, `ry`, `rz`.
-    missing : "empty", "nan", a number or None
-        How a table or an array writes a sample that was lost: an empty cell, `nan`, or a number in place of all
-        three coordinates. None: such cells are an error.
+    missing : "empty", "nan", another word, a number or None
+        How a table or an array writes a sample that was lost: an empty cell, `nan`, a word such as "NA", or a number
+        in place of all three coordinates. None: such cells are an error.
     columns : mapping, optional
         From "time", "x", "y", "z" and "qx", "qy", "qz", "qw" (or "rx", "ry", "rz") to the name of a column or
         its number counted from 0.
@@ -54,6 +55,11 @@ class Stated:
         Lines before the header line of a table.
     index : int, optional
         Which demonstration of an array (N, T, ...), from 0.
+    fixed_orientation : bool, optional
+        Whether a position without an orientation is enough: the orientation is then the identity throughout.
+    mend_times : bool, optional
+        Whether samples are put in the order of their times, and of several at one time the first counts. Otherwise
+        such times are an error; a sample that is merely written twice is left out in any case.
     """
 
     unit: str | float | None = None
@@ -69,6 +75,8 @@ class Stated:
     delimiter: str | None = None
     skip_lines: int | None = None
     index: int | None = None
+    fixed_orientation: bool | None = None
+    mend_times: bool | None = None
 
     def names(self) -> tuple[str, ...]:
         """Return the names of what was stated."""
@@ -93,6 +101,8 @@ class Stated:
             An unknown unit, an implausible range or rate, or whatever `Recording` refuses.
         """
         frame = self._frame(world)
+        kept, mended = in_order(time, position, rotation, mend=self.mend_times)
+        time, position, rotation = time[kept], position[kept], rotation[kept]
         made = Recording(
             time=frame.times(time),
             position=frame.points(position),
@@ -100,7 +110,7 @@ class Stated:
             body=body,
             source=source,
             up_axis=frame.up_axis,
-            history=(*notes, *_lost(np.isnan(position).all(axis=1)), *frame.notes(time)),
+            history=(*notes, *mended, *_lost(np.isnan(position).all(axis=1)), *frame.notes(time)),
         )
         frame.check_step(made.time)
         return made
@@ -123,13 +133,15 @@ class Stated:
             See `recording`.
         """
         frame = self._frame(world)
+        kept, mended = in_order(time, position, mend=self.mend_times)
+        time, position = time[kept], position[kept]
         made = Markers(
             names=names,
             time=frame.times(time),
             position=frame.points(position),
             source=source,
             up_axis=frame.up_axis,
-            history=(*notes, *frame.notes(time)),
+            history=(*notes, *mended, *frame.notes(time)),
         )
         frame.check_step(made.time)
         return made

@@ -1,32 +1,32 @@
 """CSV, TSV and other tables: one line a sample, columns found by their names or stated by the caller.
 
-Columns found by name, case ignored: `time`, `timestamp` or `t`; positions `x y z`, `tx ty tz` or `px py pz`;
-quaternions `qx qy qz qw`, whose names tell their order. A prefix in front of them (`hand_x`, `hand.qw`,
-`hand x`) names the body, so that one table can hold several.
+`column_names` says which names are known; a name that holds a unit, `x [mm]` or `time_ms`, states it. A prefix
+(`hand_x`, `hand.qw`) names the body, so that one table can hold several.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings.cells import Cells, split_all
-from dmpcpp.recordings.pose_columns import POSITION, QUATERNION, pose, stated_columns
-from dmpcpp.recordings.reader import AXES, Reader, pick_body
+from dmpcpp.recordings.cells import Cells
+from dmpcpp.recordings.column_names import WHOLE, bodies_in, column, times_in, unit_of
+from dmpcpp.recordings.pose_columns import ANGLES, POSITION, pose, stated_columns
+from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
 from dmpcpp.recordings.stated import Stated, times_at_rate
-from dmpcpp.recordings.text import data_lines, read_text
+from dmpcpp.recordings.table_lines import TableLines, shown, table_lines
+from dmpcpp.recordings.text import read_text
+from dmpcpp.recordings.world import World
 
 __all__ = ["READER", "bodies", "read"]
 
-_TIME_NAMES = ("time", "timestamp", "t")
-_COLUMN = re.compile(r"(?:(?P<body>.*?)[ _.:/-]+)?(?P<what>[tp]?[xyz]|q[xyzw])", re.IGNORECASE)
-_WHOLE = "pose"  # the body of columns without a prefix
+_SUFFIXES = (".csv", ".tsv")
+_TUM = ("x", "y", "z", "qx", "qy", "qz", "qw")  # columns behind the time
 
 
 @dataclass(frozen=True)
@@ -34,17 +34,31 @@ class _Table:
     """The lines of a file with the columns of its bodies; columns counted from 0."""
 
     cells: Cells
-    header: list[str]  # empty when the columns were stated by number
+    header: list[str]  # empty when no line names the columns
     bodies: dict[str, dict[str, int]]  # body -> x y z qx qy qz qw -> column
     time: int | None
+    notes: list[str]
 
-    def called(self, column: int) -> str:
-        return f"column {self.header[column]!r}" if self.header else f"column {column}"
+    def called(self, place: int) -> str:
+        return f"column {self.header[place]!r}" if place < len(self.header) else f"column {place}"
 
     def times(self, rate: float | None) -> Array:
         if rate is not None or self.time is None:
             return times_at_rate(len(self.cells.rows), rate)
         return self.cells.numbers([self.time], [self.called(self.time)])[:, 0]
+
+    def unit(self, parameter: str, columns: list[int]) -> str | None:
+        """Return the unit in the names of some columns, None if there is none."""
+        return unit_of(parameter, [self.header[place] for place in columns if place < len(self.header)])
+
+    def world(self, body: str, stated: Stated) -> World:
+        """Return the units that the names of the columns say, where the caller does not."""
+        length = [self.bodies[body][name] for name in POSITION]
+        clock = [] if self.time is None else [self.time]
+        return World(
+            unit=None if stated.unit is not None else self.unit("unit", length),
+            time_unit=None if stated.time_unit is not None or stated.rate else self.unit("time_unit", clock),
+        )
 
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
@@ -56,33 +70,32 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     """Return one body of a table."""
     table = _table(path, stated)
     body = pick_body(body, tuple(table.bodies))
-    position, rotation, notes = pose(table.cells, table.bodies[body], table.called, stated)
+    where = table.bodies[body]
+    if stated.angle_unit is None and "rx" in where:
+        stated = replace(stated, angle_unit=table.unit("angle_unit", [where[name] for name in ANGLES]))
+    position, rotation, notes = pose(table.cells, where, table.called, stated)
     return stated.recording(
         time=table.times(stated.rate),
         position=position,
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=notes,
+        notes=[*table.notes, *notes],
+        world=table.world(body, stated),
     )
 
 
 def _table(path: Path, stated: Stated) -> _Table:
-    lines = list(data_lines(read_text(path), skip=_skipped(stated.skip_lines)))
-    if not lines:
-        raise InvalidArgument("no lines of data.")
-    delimiter = _delimiter(lines[0][1]) if stated.delimiter is None else stated.delimiter
-    if not isinstance(delimiter, str) or len(delimiter) != 1:
-        raise InvalidArgument(f"delimiter: {delimiter!r}, expected one character.")
-    rows = split_all(lines, delimiter)
+    lines = table_lines(read_text(path), stated.delimiter, _skipped(stated.skip_lines))
     columns = stated.columns
-    if isinstance(columns, Mapping) and all(isinstance(column, int) for column in columns.values()):
-        where = stated_columns(columns, lambda column: _place(column, {}))
-        return _Table(Cells(rows), [], {_WHOLE: where}, where.get("time"))
-    header = [cell.strip() for cell in rows[0][1]]
-    if len(rows) < 2:
+    if isinstance(columns, Mapping) and all(isinstance(place, int) for place in columns.values()):
+        where = stated_columns(columns, lambda stated: _place(stated, {}), bool(stated.fixed_orientation))
+        return _Table(Cells(lines.rows), lines.names, {WHOLE: where}, where.get("time"), lines.notes)
+    if not lines.names:
+        raise _nameless(lines)
+    if not lines.rows:
         raise InvalidArgument("a header line without lines of data.")
-    return _named(Cells(rows[1:]), header, columns)
+    return _named(lines, columns, bool(stated.fixed_orientation))
 
 
 def _skipped(lines: int | None) -> int:
@@ -93,62 +106,74 @@ def _skipped(lines: int | None) -> int:
     return lines
 
 
-def _named(cells: Cells, header: list[str], columns: Mapping[str, str | int] | None) -> _Table:
+def _named(lines: TableLines, columns: Mapping[str, str | int] | None, position_only: bool) -> _Table:
     """Return the table under a header line, its columns stated by the caller or told by their names."""
-    places = {name: column for column, name in enumerate(header)}
+    cells, header = Cells(lines.rows), lines.names
     if columns is not None:
-        where = stated_columns(columns, lambda column: _place(column, places))
-        return _Table(cells, header, {_WHOLE: where}, where.get("time"))
-    found = _bodies(header)
+        places = {name: place for place, name in enumerate(header)}
+        where = stated_columns(columns, lambda stated: _place(stated, places), position_only)
+        return _Table(cells, header, {WHOLE: where}, where.get("time"), lines.notes)
+    found = bodies_in(header) or (bodies_in(header, position_only=True) if position_only else {})
     if not found:
-        raise NotStated(
-            "columns",
-            f"no body with columns x y z qx qy qz qw in the header {_shown(header)}. State the columns: "
-            "columns={'time': ..., 'x': ..., ..., 'qw': ...} by name, or by number from 0 without a header.",
-        )
-    times = [column for name, column in places.items() if name.lower() in _TIME_NAMES]
+        raise _bodyless(header)
+    times = times_in(header)
     if len(times) > 1:
-        raise NotStated("columns", f"{len(times)} columns of time in the header {_shown(header)}. State the columns.")
-    return _Table(cells, header, found, times[0] if times else None)
+        raise NotStated("columns", f"{len(times)} columns of time in the header {shown(header)}. State the columns.")
+    return _Table(cells, header, found, times[0] if times else None, lines.notes)
 
 
-def _bodies(header: list[str]) -> dict[str, dict[str, int]]:
-    """Return the complete bodies that column names tell."""
-    found: dict[str, dict[str, int]] = {}
-    for column, name in enumerate(header):
-        match = _COLUMN.fullmatch(name)
-        if match:
-            what = match["what"].lower()
-            what = what[-1] if what[0] in "tp" else what
-            found.setdefault(match["body"] or _WHOLE, {}).setdefault(what, column)
-    return {body: where for body, where in found.items() if all(what in where for what in (*POSITION, *QUATERNION))}
-
-
-def _place(column: object, places: Mapping[str, int]) -> int:
-    if isinstance(column, str):
-        if column in places:
-            return places[column]
-        raise InvalidArgument(f"columns: no column {column!r} in the header {_shown(list(places))}.")
-    if isinstance(column, bool) or not isinstance(column, int | np.integer) or column < 0:
-        raise InvalidArgument(f"columns: {column!r}, expected the name of a column or its number from 0.")
-    return int(column)
-
-
-def _delimiter(header: str) -> str:
-    held = [candidate for candidate in ",;\t" if candidate in header]
-    if len(held) == 1:
-        return held[0]
-    if not held and len(header.split()) > 1:
-        return " "
-    raise NotStated(
-        "delimiter",
-        f"delimiter: the first line holds {' and '.join(map(repr, held)) or 'none of , ; tab'}. State it.",
+def _nameless(lines: TableLines) -> NotStated:
+    line, cells = lines.rows[0]
+    return NotStated(
+        "columns",
+        f"line {line}: {len(cells)} numbers and no line above that names them. State the columns by number from 0: "
+        "columns={'time': 0, 'x': 1, ..., 'qw': 7}.",
     )
 
 
-def _shown(header: list[str]) -> str:
-    shown = ", ".join(name if len(name) <= 30 else name[:30] + "..." for name in header[:20])
-    return f"[{shown}{', ...' if len(header) > 20 else ''}]"
+def _bodyless(header: list[str]) -> NotStated:
+    held = tuple(bodies_in(header, position_only=True))
+    if held:
+        return NotStated(
+            ("fixed_orientation", "columns"),
+            f"the columns of {', '.join(held[:5])} hold a position and no orientation in the header {shown(header)}. "
+            "State fixed_orientation=True to hold the tool's fixed, or the columns: columns={'time': ..., 'x': ..., "
+            "'y': ..., 'z': ..., 'qx': ..., ...}.",
+        )
+    return NotStated(
+        "columns",
+        f"no body with columns x y z qx qy qz qw in the header {shown(header)}. State the columns by name, "
+        "columns={'time': ..., 'x': ..., ..., 'qw': ...}, or skip_lines=N where the header stands N lines below.",
+    )
+
+
+def _place(stated: object, places: Mapping[str, int]) -> int:
+    if isinstance(stated, str):
+        if stated in places:
+            return places[stated]
+        raise InvalidArgument(f"columns: no column {stated!r} in the header {shown(list(places))}.")
+    if isinstance(stated, bool) or not isinstance(stated, int | np.integer) or stated < 0:
+        raise InvalidArgument(f"columns: {stated!r}, expected the name of a column or its number from 0.")
+    return int(stated)
+
+
+def _recognises(path: Path, head: bytes) -> bool:
+    """Return whether a file is called a table, or its first lines name the columns of a body."""
+    if path.suffix.lower() in _SUFFIXES:
+        return True
+    try:
+        lines = table_lines(head.decode("utf-8-sig", errors="replace"), None)
+    except InvalidArgument:
+        return False
+    found = bodies_in(lines.names) if lines.rows else {}
+    return bool(found) and not (lines.commented and lines.delimiter == " " and _is_tum(lines.names, found))
+
+
+def _is_tum(header: list[str], found: dict[str, dict[str, int]]) -> bool:
+    """Return whether a comment names the columns that every TUM file has, in their order and without other units."""
+    order = [found.get(WHOLE, {}).get(what) for what in _TUM]
+    units = {said.unit for said in map(column, header) if said is not None}
+    return order == list(range(1, 8)) and times_in(header) == [0] and units <= {"", "m", "s"}
 
 
 READER = Reader(
@@ -161,11 +186,12 @@ READER = Reader(
         "rate",
         "time_unit",
         "missing",
+        "fixed_orientation",
         "euler_order",
         "angle_unit",
-        *AXES,
+        *COMMON,
     ),
-    recognises=lambda path, head: path.suffix.lower() in (".csv", ".tsv"),
+    recognises=_recognises,
     bodies=bodies,
     read=read,
 )

@@ -34,9 +34,11 @@ def read_text(path: Path) -> str:
     FileError
         See `read_bytes`.
     InvalidArgument
-        It is not UTF-8 text; the message names the line.
+        It is not UTF-8 text; the message names the line and says what to do.
     """
     content = read_bytes(path)
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise InvalidArgument("line 1: UTF-16 text, expected UTF-8. Save the file as UTF-8.")
     nul = content.find(b"\0")
     if nul >= 0:
         line = content.count(b"\n", 0, nul) + 1
@@ -50,7 +52,7 @@ def read_text(path: Path) -> str:
         ) from None
 
 
-def data_lines(text: str, comment: str = "#", skip: int = 0) -> Iterator[tuple[int, str]]:
+def data_lines(text: str, comment: str | tuple[str, ...] = "#", skip: int = 0) -> Iterator[tuple[int, str]]:
     """Yield (line number from 1, stripped line) of the lines behind `skip` that are neither blank nor comments."""
     for count, line in enumerate(text.split("\n"), start=1):
         stripped = line.strip("\r ")

@@ -11,7 +11,7 @@ from pathlib import Path
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.markers import Markers, distinct
-from dmpcpp.recordings.reader import AXES, marker_reader
+from dmpcpp.recordings.reader import marker_reader
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import data_lines, read_text
 from dmpcpp.recordings.world import LENGTH_UNITS, World
@@ -79,5 +79,4 @@ READER = marker_reader(
     summary="a TRC file of markers",
     recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf").startswith(b"PathFileType"),
     markers=markers,
-    takes=AXES,
 )

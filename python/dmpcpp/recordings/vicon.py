@@ -13,7 +13,7 @@ from pathlib import Path
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.markers import Markers, distinct
-from dmpcpp.recordings.reader import AXES, marker_reader
+from dmpcpp.recordings.reader import marker_reader
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import number, read_text
 from dmpcpp.recordings.world import LENGTH_UNITS, World
@@ -85,5 +85,4 @@ READER = marker_reader(
     summary="a Vicon Nexus CSV of trajectories (markers)",
     recognises=_recognises,
     markers=markers,
-    takes=AXES,
 )

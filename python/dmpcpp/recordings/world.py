@@ -14,13 +14,13 @@ __all__ = ["LENGTH_UNITS", "TIME_UNITS", "Frame", "Handedness", "World"]
 
 Handedness = Literal["right", "left"]
 
-LENGTH_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
+LENGTH_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
 _LARGEST_EXTENT = 5.0  # m; a limb's motion that is larger is more likely in another unit
 _LEAST_EXTENT = 2e-5  # m; what moves less is below the noise of every recording system: more likely another unit
 _AT_REST = 1e-9  # m; what moves less does not move at all, and its unit can not be told
-_LIKELY_STEP = (1e-5, 1.0)  # s; between samples
+_LIKELY_STEP = (2e-4, 0.4)  # s; between samples: 1 kHz in ms is 1, 100 Hz in minutes 1.7e-4
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,8 @@ class Frame:
         if self.stated_unit is None and extent[axis] > _LARGEST_EXTENT:
             raise InvalidArgument(
                 f"position: {'xyz'[axis]} ranges over {extent[axis]:.4g} m, more than {_LARGEST_EXTENT:g}. "
-                "Are these millimetres or centimetres? State unit='mm' or 'cm', or unit='m' if it is right."
+                "Are these millimetres, centimetres or inches? State unit='mm', 'cm' or 'in', or unit='m' if it is "
+                "right."
             )
         if _AT_REST < extent[axis] < _LEAST_EXTENT:
             raise InvalidArgument(

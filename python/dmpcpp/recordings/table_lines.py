@@ -1,0 +1,107 @@
+"""The lines of a table of text: what parts their cells, which line names the columns, which hold numbers."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.recordings.cells import Row, split, split_all
+from dmpcpp.recordings.text import data_lines
+
+__all__ = ["TableLines", "is_data", "shown", "table_lines"]
+
+_COMMENTS = ("#", "%")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:e[+-]?\d+)?", re.IGNORECASE)
+_LOOKED_AT = 20  # lines of data that show whether commas are decimal
+
+
+@dataclass(frozen=True)
+class TableLines:
+    """A table's lines of data, the names of its columns, none if no line names them, and what was done to read it.
+
+    `commented` says that the names stand in a comment above the data, as NumPy writes them.
+    """
+
+    rows: list[Row]
+    names: list[str]
+    delimiter: str
+    commented: bool
+    notes: list[str]
+
+
+def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
+    """Return a table's lines; the delimiter is told from the first of them unless stated.
+
+    Lines that are blank or comments (`#` or `%` first) are left out, and the first `skip` lines of the text. The first
+    line names the columns unless it holds numbers; then a comment above with as many words does. Where the
+    delimiter is not the comma, commas in numbers are decimal points.
+
+    Raises
+    ------
+    InvalidArgument
+        No line of data, or a line that can not be split, named; an unclear delimiter (`NotStated`).
+    """
+    lines = list(data_lines(text, _COMMENTS, skip))
+    if not lines:
+        raise InvalidArgument("no lines of data.")
+    delimiter = _delimiter(lines[0][1]) if delimiter is None else delimiter
+    if not isinstance(delimiter, str) or len(delimiter) != 1:
+        raise InvalidArgument(f"delimiter: {delimiter!r}, expected one character.")
+    first = [cell.strip() for cell in split(lines[0][1], delimiter, lines[0][0])]
+    headed = not is_data(first)
+    names = first if headed else _commented(text, lines[0][0], len(first), delimiter)
+    data = lines[1:] if headed else lines
+    notes = []
+    if delimiter != "," and _has_decimal_commas(data, delimiter):
+        data = [(line, content.replace(",", ".")) for line, content in data]
+        notes.append("decimal commas read as points")
+    return TableLines(split_all(data, delimiter), names, delimiter, bool(names) and not headed, notes)
+
+
+def is_data(cells: list[str]) -> bool:
+    """Return whether a line holds numbers rather than names; some cells may be text, or empty."""
+    return sum(map(_is_number, cells)) * 2 > sum(1 for cell in cells if cell)
+
+
+def shown(names: list[str]) -> str:
+    """Return the names of columns, shortened, as messages show them."""
+    short = ", ".join(name if len(name) <= 30 else name[:30] + "..." for name in names[:20])
+    return f"[{short}{', ...' if len(names) > 20 else ''}]"
+
+
+def _delimiter(line: str) -> str:
+    held = [candidate for candidate in ",;\t" if candidate in line]
+    if len(held) == 1:
+        return held[0]
+    if not held and len(line.split()) > 1:
+        return " "
+    raise NotStated(
+        "delimiter",
+        f"delimiter: the first line holds {' and '.join(map(repr, held)) or 'none of , ; tab'}. State it.",
+    )
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return _DECIMAL_COMMA.fullmatch(cell) is not None
+    return True
+
+
+def _commented(text: str, above: int, count: int, delimiter: str) -> list[str]:
+    """Return the names in the last comment above a line that holds as many as there are columns; else none."""
+    for line in reversed(text.split("\n", above)[: above - 1]):
+        content = line.strip().lstrip("".join(_COMMENTS)).strip()
+        for candidate in (content.split(delimiter) if delimiter != " " else [], content.split()):
+            if line.strip().startswith(_COMMENTS) and len(candidate) == count:
+                return [name.strip() for name in candidate]
+    return []
+
+
+def _has_decimal_commas(lines: list[tuple[int, str]], delimiter: str) -> bool:
+    """Return whether numbers hold commas where others have points, and none holds a point."""
+    cells = [cell.strip() for line, content in lines[:_LOOKED_AT] for cell in split(content, delimiter, line)]
+    numbers = [cell for cell in cells if _is_number(cell)]
+    return any("," in cell for cell in numbers) and not any("." in cell for cell in numbers)
