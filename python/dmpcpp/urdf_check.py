@@ -98,13 +98,14 @@ def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfRepor
         )
     found = [defect for look in _LOOKS for defect in look(robot, path.absolute().parent)]
     arm, of_loading = _loaded(path, base, tip)
-    found += [defect for defect in of_loading if not any(_same(defect, other) for other in found)]
+    found += [defect for defect in of_loading if not any(_covers(other, defect) for other in found)]
     return UrdfReport(str(path), tuple(sorted(found, key=lambda defect: not defect.fatal)), arm)
 
 
-def _same(loading: Defect, other: Defect) -> bool:
-    """Whether what loading says has been named already, link or joint by link or joint."""
-    return "'" in other.where and f"'{other.where.split(chr(39))[1]}'" in loading.what
+def _covers(known: Defect, loading: Defect) -> bool:
+    """Whether what loading says of a link or joint has been said of it already, and as gravely."""
+    named = "'" in known.where and f"'{known.where.split(chr(39))[1]}'" in loading.what
+    return named and known.fatal >= loading.fatal
 
 
 def _names(robot: ET.Element, _: Path) -> Iterator[Defect]:

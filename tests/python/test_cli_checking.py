@@ -68,6 +68,20 @@ def test_each_defect_is_named(name, tmp_path):
     assert any(word in f"{d.where} {d.what} {d.to_do}" for d in report.defects), report.defects
 
 
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ('xyz="0 0 1"', 'xyz="0 0 1e-9"'),
+        ("</joint>\n</robot>", '<mimic joint="nobody"/></joint>\n</robot>'),
+    ],
+)
+def test_what_keeps_an_arm_from_loading_is_an_error_though_a_warning_names_the_joint_too(before, after, tmp_path):
+    (tmp_path / "two.urdf").write_text(GOOD.replace(before, after, 1))
+    report = urdf_check.check(tmp_path / "two.urdf")
+    assert report.arm is None
+    assert [defect.where for defect in report.defects if defect.fatal] == ["loading"]
+
+
 def test_all_defects_are_named_at_once(tmp_path):
     broken = GOOD.replace('effort="20"', 'effort="0"').replace('xyz="0 0 1"', 'xyz="0 0 2"').replace("0.1 0.1 0.1", "x")
     broken = broken.replace('<mass value="1"/>', "")

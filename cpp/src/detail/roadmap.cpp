@@ -9,6 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_edge = 0.7;     // rad or m of any joint
+constexpr double rounding = 1e-6;        // rad or m
 constexpr double same_joints = 0.03;     // rad or m: closer than that, one of two is enough
 constexpr double near_a_limit = 0.1;     // rad or m
 constexpr double usual_speed = 2.0;      // rad/s, of a joint without a velocity limit
@@ -28,6 +29,14 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t layers) {
   return samples;
 }
 
+// The way that the steps of a path allow from one sample to another; longer than `longest_edge` counts for no
+// edge.
+Joints reach_between(const TargetPath& path, std::size_t first, std::size_t last) {
+  Joints reach = Joints::Constant(path.step.front().size(), rounding);
+  for (std::size_t k = first; k < last; ++k) reach += path.step[k];
+  return reach.cwiseMin(longest_edge);
+}
+
 }  // namespace
 
 Roadmap::Roadmap(const ChainModel& model, const PathTracker& tracker, const TargetPath& path,
@@ -39,6 +48,8 @@ Roadmap::Roadmap(const ChainModel& model, const PathTracker& tracker, const Targ
       weight_(weights(model)),
       sample_(evenly(path.target.size(), size.layers)),
       layers_(sample_.size()) {
+  for (std::size_t k = 0; k < sample_.size(); ++k)
+    reach_.push_back(reach_between(path, sample_[k > 0 ? k - 1 : 0], sample_[k]));
   Random random(random_seed);
   if (start) add(0, *start);
   for (std::size_t k = start ? 1 : 0; k < layers_.size(); ++k) {
@@ -76,12 +87,13 @@ void Roadmap::spread(std::size_t from, std::size_t to) {
   }
 }
 
-// Squared, so that many small steps are shorter than few large ones; infinity if beyond `longest` anyway.
-double Roadmap::length(const Node& a, const Node& b, double longest) const {
+// Squared, so that many small steps are shorter than few large ones; infinity if a joint would have to go
+// further than its reach, or the edge is beyond `longest` anyway.
+double Roadmap::length(const Node& a, const Node& b, const Joints& reach, double longest) const {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < a.joints.size() && sum < longest; ++i) {
     const double step = std::abs(b.joints[i] - a.joints[i]);
-    if (step > longest_edge) return infinity;
+    if (step > reach[i]) return infinity;
     sum += step * step * weight_[i] * weight_[i];
   }
   return sum;
@@ -95,7 +107,7 @@ void Roadmap::relax(std::size_t first_layer) {
         const Node& before = layers_[k - 1][i];
         const double known = before.cost + node.toll;
         if (known >= node.cost) continue;
-        const double cost = known + length(before, node, node.cost - known);
+        const double cost = known + length(before, node, reach_[k], node.cost - known);
         if (cost >= node.cost || std::find(node.shut.begin(), node.shut.end(), i) != node.shut.end())
           continue;
         node.cost = cost;
@@ -131,7 +143,7 @@ bool Roadmap::lead(std::size_t layer, const Joints& a, const Joints& b, std::vec
     if (!met) return false;
     joints[k] = *met;
   }
-  return (joints[last] - b).cwiseAbs().maxCoeff() < 1e-6;
+  return (joints[last] - b).cwiseAbs().maxCoeff() < rounding;
 }
 
 // Fills in the joints along the way; the layer at which it is barred, or the number of layers.

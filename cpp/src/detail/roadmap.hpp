@@ -44,7 +44,7 @@ class Roadmap {
   void fill(std::size_t layer, Random& random);
   void spread(std::size_t from, std::size_t to);
   void relax(std::size_t first_layer);
-  double length(const Node& a, const Node& b, double longest) const;
+  double length(const Node& a, const Node& b, const Joints& reach, double longest) const;
   std::vector<std::size_t> cheapest_way() const;
   std::size_t walk(const std::vector<std::size_t>& way, std::vector<Joints>& joints) const;
   bool lead(std::size_t layer, const Joints& a, const Joints& b, std::vector<Joints>& joints) const;
@@ -55,6 +55,7 @@ class Roadmap {
   JointRange range_;
   Joints weight_;                    ///< one over the speed of each joint
   std::vector<std::size_t> sample_;  ///< of each layer
+  std::vector<Joints> reach_;        ///< of each layer: how far each joint can come from the layer before
   std::vector<Layer> layers_;
 };
 
