@@ -51,6 +51,7 @@ check_coverage() {
 
 check_python-asan() {
   cmake -S . -B build/python-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDMP_PYTHON=ON -DDMP_TESTS=OFF -DBUILD_SHARED_LIBS=OFF \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
     -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-omit-frame-pointer" -DPYBIND11_FINDPYTHON=ON \
     -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" -DPython_EXECUTABLE="$python" && cmake --build build/python-asan &&
     rm -rf build/python-asan/path && mkdir build/python-asan/path && cp -r python/dmpcpp build/python-asan/path/ &&

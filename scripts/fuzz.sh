@@ -12,6 +12,7 @@ targets=("$@")
 python=${PYTHON:-$root/.venv/bin/python}
 found=$root/build/fuzz/found
 mkdir -p "$found"
+TIMEFORMAT=%0U
 
 build() {
   [ -n "${built:-}" ] && return
@@ -24,16 +25,18 @@ run() {
   local target=$1 log=build/fuzz/$1.log
   shift
   mkdir -p "build/fuzz/corpus/$target"
-  "$@" -max_total_time="$seconds" -artifact_prefix="$found/$target-" -print_final_stats=1 >"$log" 2>&1 ||
+  { time "$@" -max_total_time="$seconds" -artifact_prefix="$found/$target-" -print_final_stats=1 >"$log" 2>&1; } 2>"$log.cpu" ||
     { tail -n 60 "$log" >&2; echo "fuzz $target: failed, input kept in $found" >&2; exit 1; }
-  echo "ok  fuzz $target: $(sed -n 's/^Done \([0-9]*\) runs in \([0-9]*\).*/\1 runs in \2 s/p' "$log")"
+  echo "ok  fuzz $target: $(sed -n 's/^Done \([0-9]*\) runs in \([0-9]*\).*/\1 runs in \2 s/p' "$log"), $(cat "$log.cpu") s of a processor"
 }
 
 export LSAN_OPTIONS=suppressions=$root/tests/sanitizers/leaks.txt:print_suppressions=0
 for target in "${targets[@]}"; do
   if [ "$target" = readers ]; then
     "$python" -c 'import atheris' 2>/dev/null || { echo "skipped  fuzz readers: no atheris"; continue; }
-    run readers "$python" tests/fuzz/fuzz_readers.py build/fuzz/corpus/readers tests/fuzz/seeds/readers -timeout=5 -rss_limit_mb=1024
+    mkdir -p build/fuzz/seeds/readers
+    "$python" tests/fuzz/fuzz_readers.py --seeds build/fuzz/seeds/readers >build/fuzz/log 2>&1 || { cat build/fuzz/log >&2; exit 1; }
+    run readers "$python" tests/fuzz/fuzz_readers.py build/fuzz/corpus/readers build/fuzz/seeds/readers -timeout=5 -rss_limit_mb=512
   else
     command -v clang++-22 >/dev/null || { echo "skipped  fuzz $target: no clang-22"; continue; }
     build

