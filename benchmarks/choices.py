@@ -27,6 +27,8 @@ Learn = Callable[[Sequence[Recording], Recording], dmpcpp.PoseDmp]
 
 _FOLDS = 5
 _NEAREST = (3, 5, 8)
+_KERNELS = (5, 10, 20, 50)
+_SPLITS = 100
 _SECOND = 0.1  # m; what a second of duration counts when reaches are compared
 _CUTOFFS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
 
@@ -34,9 +36,12 @@ _CUTOFFS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
 # ---- predicting reaches ---------------------------------------------------------------------------------
 
 
-def together(lessons: Sequence[Recording], asked: Recording, scaling: str = "rotation_dilation") -> dmpcpp.PoseDmp:
+def together(
+    lessons: Sequence[Recording], asked: Recording, scaling: str = "rotation_dilation", basis_count: int = 100
+) -> dmpcpp.PoseDmp:
     """Learn all lessons at once."""
-    return dmpcpp.PoseDmp.fit([motion.demonstration(lesson) for lesson in lessons], scaling=scaling)
+    demonstrations = [motion.demonstration(lesson) for lesson in lessons]
+    return dmpcpp.PoseDmp.fit(demonstrations, scaling=scaling, basis_count=basis_count)
 
 
 def aligned(lessons: Sequence[Recording], asked: Recording) -> dmpcpp.PoseDmp:
@@ -97,6 +102,8 @@ def predicting(folder: Path) -> None:
     click.echo(_row("as used", parts, together))
     for scaling in ("none", "per_axis_relative"):
         click.echo(_row(f"scaling {scaling}", parts, partial(together, scaling=scaling), scaling))
+    for count in _KERNELS:
+        click.echo(_row(f"{count} kernels", parts, partial(together, basis_count=count)))
     click.echo(_row("aligned before", parts, aligned))
     for count in _NEAREST:
         click.echo(_row(f"the {count} most like what is asked", parts, partial(nearest, count=count)))
@@ -104,6 +111,25 @@ def predicting(folder: Path) -> None:
         cut = human_motion.reaches(cycles, rest)
         click.echo(_row(f"cut at {100 * rest:.0f} % of the peak speed", cut, together))
     click.echo(_row("ending closest to the pillow", _to_object(cycles, distance), together))
+    click.echo(_splits(parts))
+
+
+def _splits(parts: Sequence[Recording]) -> str:
+    """Return how fifteen together and the single one of them that turns out best do over random choices of fifteen."""
+    random = np.random.default_rng(0)
+    single = human_motion.singly(list(parts))
+    both = []
+    for _ in range(_SPLITS):
+        order = random.permutation(len(parts))
+        lessons, asked = order[:LEARNED], order[LEARNED:]
+        model = together([parts[k] for k in lessons], parts[0])
+        error = float(np.mean([prediction_error(model, parts[k]) for k in asked]))
+        both.append((error, single[np.ix_(lessons, asked)].mean(axis=1).min()))
+    joint, best = np.array(both).T
+    return (
+        f"{_SPLITS} random choices of {LEARNED} lessons: together {joint.mean():.2f}, best single {best.mean():.2f}; "
+        f"together is better in {100 * np.mean(joint < best):.0f} %"
+    )
 
 
 def _to_object(cycles: Sequence[Recording], distance: np.ndarray) -> list[Recording]:

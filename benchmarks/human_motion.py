@@ -66,20 +66,35 @@ def repetitions(folder: Path) -> Iterator[Figure]:
 
 
 def prediction(folder: Path) -> Iterator[Figure]:
-    """Predict five reaches from their start, goal and duration: fifteen learned together beside each alone."""
+    """Predict reaches from their start, goal and duration: five by the fifteen before them, and each by all others,
+    learned together, beside the single ones.
+    """
     hand, _ = grasping(folder)
     parts = reaches(motion.cycles(hand))
-    lessons = [motion.demonstration(part) for part in parts[:LEARNED]]
-    together = _predicted(lessons, parts[LEARNED:])
-    alone = [_predicted([lesson], parts[LEARNED:]) for lesson in lessons]
-    yield Figure("reaches 16-20 predicted by 1-15 together; goal: the best single reach", together, min(alone), "mm")
-    yield Figure("the same; goal: the mean of the single reaches", together, float(np.mean(alone)), "mm")
+    lessons = [motion.demonstration(part) for part in parts]
+    single = singly(parts)
+    together = float(np.mean(_predicted(lessons[:LEARNED], parts[LEARNED:])))
+    alone = single[:LEARNED, LEARNED:].mean(axis=1)
+    yield Figure("reaches 16-20 predicted by 1-15 together; goal: the best single reach", together, alone.min(), "mm")
+    yield Figure("the same; goal: the mean of the single reaches", together, alone.mean(), "mm")
+    others = [_predicted(lessons[:k] + lessons[k + 1 :], [part])[0] for k, part in enumerate(parts)]
+    each = float(np.mean(others))
+    alone = np.nanmean(single, axis=1)
+    yield Figure("each of the 20 by the 19 others together; goal: the best single one of all", each, alone.min(), "mm")
+    yield Figure("the same; goal: the mean of the single reaches", each, alone.mean(), "mm")
 
 
-def _predicted(lessons: list[dmpcpp.PoseDemonstration], asked: list[Recording]) -> float:
-    """Return the mean RMSE [mm] of positions over the reaches asked for."""
+def singly(parts: list[Recording]) -> Array:
+    """Return the RMSE [mm] with which each reach alone (row) predicts each other one (column); NaN for itself."""
+    errors = np.array([_predicted([motion.demonstration(lesson)], parts) for lesson in parts])
+    np.fill_diagonal(errors, np.nan)
+    return errors
+
+
+def _predicted(lessons: list[dmpcpp.PoseDemonstration], asked: list[Recording]) -> list[float]:
+    """Return the RMSE [mm] of positions of each reach asked for."""
     model = dmpcpp.PoseDmp.fit(lessons, scaling="rotation_dilation")
-    return float(np.mean([prediction_error(model, part) for part in asked]))
+    return [prediction_error(model, part) for part in asked]
 
 
 def prediction_error(model: dmpcpp.PoseDmp, part: Recording) -> float:

@@ -1,9 +1,12 @@
 """A long recording cut where it rests, or into whole cycles."""
 
+import re
+
 import numpy as np
 import pytest
 from dmpcpp import motion
 from dmpcpp.errors import InvalidArgument
+from scipy.spatial.transform import Rotation
 
 from tests.python.motions import reaches, screw
 
@@ -56,6 +59,33 @@ def test_an_excursion_without_return_is_no_cycle():
 def test_home_may_be_stated_where_the_recording_starts_elsewhere():
     late = motion.crop(reaches(4), 1.5, 11.0)
     assert len(motion.cycles(late, home=[0.0, 0.0, 0.0])) == 3
+
+
+@pytest.mark.parametrize(("position", "angle"), [(2e-4, 0.05), (1e-3, 0.1), (3e-3, 0.3)])
+@pytest.mark.parametrize("rate", [30.0, 100.0, 1000.0])
+def test_noise_does_not_hide_the_rests(position, angle, rate):
+    still = motion.resample(reaches(4), rate)
+    random = np.random.default_rng(0)
+    turn = Rotation.from_rotvec(random.normal(0.0, np.radians(angle), (len(still), 3)))
+    noisy = still.with_(
+        "noise added",
+        position=still.position + random.normal(0.0, position, still.position.shape),
+        rotation=(Rotation.from_matrix(still.rotation) * turn).as_matrix(),
+    )
+    for cut in (motion.segments, motion.cycles):
+        expected, found = cut(still), cut(noisy)
+        assert len(found) == len(expected)
+        np.testing.assert_allclose([part.duration for part in found], [p.duration for p in expected], atol=0.2)
+    kept = found[0]  # as recorded, not as filtered
+    first = int(np.argmin(np.linalg.norm(noisy.position - kept.position[0], axis=1)))
+    np.testing.assert_array_equal(noisy.position[first : first + len(kept)], kept.position)
+
+
+def test_the_history_says_when_noise_was_taken_out_to_find_rests():
+    noisy = reaches(4)
+    noise = np.random.default_rng(0).normal(0.0, 1e-3, noisy.position.shape)
+    part = motion.segments(noisy.with_("noise added", position=noisy.position + noise))[0]
+    assert re.match(r"segment 1 of 8 by speed below [\d.]+ Hz, as noise of \S+ mm and .* deg per axis", part.history[-1])
 
 
 def test_a_hand_that_never_leaves_makes_no_cycle():

@@ -6,6 +6,7 @@ from dmpcpp import motion, recordings
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement, place
+from dmpcpp.retarget.following import to_follow
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -115,6 +116,26 @@ def test_only_poses_can_be_placed():
 
 
 # ---------------------------------------------------------------- the search
+
+
+def test_a_long_recording_of_many_samples_is_followed_at_fifty_a_second():
+    time = np.arange(20001) / 1000.0
+    path = np.column_stack([0.2 * np.sin(time), 0.1 * np.cos(0.5 * time), 0.0 * time])
+    turn = Rotation.from_rotvec(np.outer(np.sin(time), [0.3, 0.0, 0.5])).as_matrix()
+    followed = to_follow(Recording(time=time, position=path, rotation=turn))
+    assert len(followed) == 1001 and followed.duration == time[-1]
+    np.testing.assert_allclose(followed.position, path[::20], atol=1e-12)
+    short = to_follow(Recording(time=time[:5000], position=path[:5000], rotation=turn[:5000]))
+    assert len(short) == 5000
+
+
+def test_a_fast_stretch_of_a_long_recording_keeps_its_density():
+    time = np.arange(6001) / 1000.0
+    path = np.column_stack([np.where(time < 5.0, 0.0, 2.0 * (time - 5.0)), 0.0 * time, 0.0 * time])
+    followed = to_follow(Recording(time=time, position=path, rotation=np.tile(np.eye(3), (6001, 1, 1))))
+    steps = np.linalg.norm(np.diff(followed.position, axis=0), axis=1)
+    assert steps.max() < 0.035  # refined where 20 samples move 40 mm
+
 
 ARMS = {
     "panda": ("franka_panda/panda.urdf", "panda_link0", "panda_hand"),

@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion.poses import complete, positive, turn_angles
+from dmpcpp.motion.smoothing import Noise, evenly_sampled, low_pass, noise
+from dmpcpp.motion.timing import resample
 from dmpcpp.recordings.recording import MIN_SAMPLES, Array, Recording
 
 __all__ = ["cycles", "segments", "speed"]
@@ -16,13 +18,18 @@ __all__ = ["cycles", "segments", "speed"]
 _REST = 0.05  # share of the peak speed below which a hand rests
 _AWAY, _BACK = 0.6, 0.45  # shares of the largest distance from home; apart, so that a hand that dithers counts once
 
+_CUTOFFS = (2.0, 10.0)  # Hz, least and most: a reach lies below the one, a hand below the other
+_MEAN_LENGTH = 1.6  # of a vector of three normal numbers: sqrt(8 / pi)
+_FILTERED = 20  # samples that a filter needs at least
+_CLEAR = 3.0  # times slower than what counts as rest shall the noise that is left be
+
 Span = tuple[int, int]  # samples, first and one past the last
 
 
 def speed(recording: Recording, angle_weight: float = 0.2) -> Array:
     """Return |v| + angle_weight |omega| (T,) in m/s, by second-order differences; angle_weight in m/rad.
 
-    Noise counts as speed: smooth first.
+    Noise counts as speed; `segments` and `cycles` take it out before they look for rests.
     """
     linear = np.linalg.norm(np.gradient(complete(recording).position, recording.time, axis=0, edge_order=2), axis=1)
     travelled = np.concatenate(([0.0], np.cumsum(turn_angles(recording))))
@@ -33,6 +40,9 @@ def segments(
     recording: Recording, *, rest: float = _REST, shortest: float = 0.1, pause: float = 0.1, angle_weight: float = 0.2
 ) -> list[Recording]:
     """Cut at the rests: the parts whose speed stays above `rest` times its peak.
+
+    Where the noise that is found in the recording would pass for motion, the speed is that of the motion below a
+    frequency at which it does not, 2 to 10 Hz; the history tells. The parts themselves are as recorded.
 
     Parameters
     ----------
@@ -51,11 +61,11 @@ def segments(
         In order, each from its own time 0; none for a recording that never moves.
     """
     _check_share("rest", rest)
-    pace = speed(recording, angle_weight)
+    pace, how = _pace(recording, rest, angle_weight)
     spans = _runs(pace > rest * pace.max())
     spans = _joined(recording.time, spans, pause)
     spans = [(b, e) for b, e in spans if e - b >= MIN_SAMPLES and recording.time[e - 1] - recording.time[b] >= shortest]
-    return _cut(recording, spans, f"segment {{}} of {len(spans)} by speed")
+    return _cut(recording, spans, f"segment {{}} of {len(spans)} by speed{how}")
 
 
 def cycles(
@@ -87,11 +97,39 @@ def cycles(
         raise InvalidArgument(f"home: {home}, expected (3,) finite numbers in m.")
     distance = np.linalg.norm(recording.position - home, axis=1)
     share = distance / distance.max() if distance.max() > 0.0 else distance
-    pace = speed(recording, angle_weight)
+    pace, how = _pace(recording, rest, angle_weight)
     resting = pace < rest * pace.max()
     stays = _stays_around(_excursions(share), share)
     spans = [(_leaving(pace, resting, *a), _arrival(pace, resting, *b) + 1) for a, b in pairwise(stays)]
-    return _cut(recording, spans, f"cycle {{}} of {len(spans)}")
+    return _cut(recording, spans, f"cycle {{}} of {len(spans)}{how}")
+
+
+def _pace(recording: Recording, rest: float, angle_weight: float) -> tuple[Array, str]:
+    """Return the speed (T,) to find rests in, and what was done about noise, "" if nothing.
+
+    White noise of deviation s per axis, sampled at f, has below c the speed 2 pi s sqrt(2 c^3 / (3 f)) per axis.
+    """
+    pace = speed(recording, angle_weight)
+    found, rate = noise(recording), recording.rate
+    if _noise_speed(found, rate, angle_weight) <= rest * pace.max() or not _can_be_filtered(recording):
+        return pace, ""
+    even = recording if evenly_sampled(recording) else resample(recording, rate)
+    least, most = min(_CUTOFFS[0], 0.2 * rate), min(_CUTOFFS[1], 0.4 * rate)
+    wanted = rest * speed(low_pass(even, most), angle_weight).max() / _CLEAR
+    deviation = _MEAN_LENGTH * (found.position + angle_weight * found.angle)
+    cutoff = float(np.clip((wanted / (2 * np.pi * deviation)) ** (2 / 3) * (1.5 * rate) ** (1 / 3), least, most))
+    calm = low_pass(even, cutoff)
+    pace = np.interp(recording.time, calm.time, speed(calm, angle_weight))
+    return pace, f" below {cutoff:.2g} Hz, as noise of {found.describe()} passes for motion"
+
+
+def _noise_speed(found: Noise, rate: float, angle_weight: float) -> float:
+    """Return the speed [m/s] that noise has in central differences of positions and in differences of orientations."""
+    return _MEAN_LENGTH * rate * (found.position / np.sqrt(2) + np.sqrt(2) * angle_weight * found.angle)
+
+
+def _can_be_filtered(recording: Recording) -> bool:
+    return len(recording) >= _FILTERED and bool(turn_angles(recording).max() < np.pi / 2)
 
 
 def _excursions(share: Array) -> list[Span]:

@@ -93,7 +93,8 @@ def place(
             f"{search.shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
         )
     best = search.improved(max(found, key=lambda carried: carried.worth), random, scale)
-    note = f"carries all {len(recording)} samples, {best.summary} ({candidates} candidates, seed {seed})"
+    followed = "" if len(search.time) >= len(recording) else f" (followed at {len(search.time)})"
+    note = f"carries all {len(recording)} samples{followed}, {best.summary} ({candidates} candidates, seed {seed})"
     if recording.up_axis is None:
         note += "; up axis not stated: z taken"
     return replace(best.placement, note=note)
