@@ -85,7 +85,9 @@ def test_the_history_says_when_noise_was_taken_out_to_find_rests():
     noisy = reaches(4)
     noise = np.random.default_rng(0).normal(0.0, 1e-3, noisy.position.shape)
     part = motion.segments(noisy.with_("noise added", position=noisy.position + noise))[0]
-    assert re.match(r"segment 1 of 8 by speed below [\d.]+ Hz, as noise of \S+ mm and .* deg per axis", part.history[-1])
+    assert re.match(
+        r"segment 1 of 8 by speed below [\d.]+ Hz, as noise of \S+ mm and .* deg per axis", part.history[-1]
+    )
 
 
 def test_a_hand_that_never_leaves_makes_no_cycle():

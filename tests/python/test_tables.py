@@ -82,6 +82,14 @@ def test_a_unit_in_the_names_of_columns_is_taken_and_the_callers_word_wins(tmp_p
         recordings.load(mixed)
 
 
+def test_a_line_of_units_below_the_names_is_taken(tmp_path):
+    path = write(tmp_path / "a.csv", ROWS * [1.0, 1000.0, 1000.0, 1000.0, 1, 1, 1, 1])
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([lines[0], "[s],[mm],[mm],[mm],,,,", *lines[1:]]))
+    assert_same_motion(recordings.load(path))
+    assert_same_motion(recordings.load(path, columns={name: name for name in HEADER}))
+
+
 def test_angles_are_found_by_name_and_their_unit_in_it(tmp_path):
     angles = TURNS.as_euler("ZYX", degrees=True)[:, ::-1]
     header = ["time", "x", "y", "z", "roll (deg)", "pitch (deg)", "yaw (deg)"]

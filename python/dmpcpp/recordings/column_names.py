@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from dmpcpp.errors import NotStated
 from dmpcpp.recordings.pose_columns import ANGLES, POSITION, QUATERNION
 
-__all__ = ["WHOLE", "Column", "bodies_in", "column", "times_in", "unit_of"]
+__all__ = ["WHOLE", "Column", "bodies_in", "column", "known_unit", "times_in", "unit_of"]
 
 WHOLE = "pose"
 """What the body of columns without a prefix is called."""
@@ -91,15 +91,21 @@ def times_in(names: Sequence[str]) -> list[int]:
     return [place for place, said in enumerate(map(column, names)) if said is not None and said.what == "time"]
 
 
-def unit_of(parameter: str, names: Iterable[str]) -> str | None:
-    """Return the unit that names of columns agree on; None where they say none.
+def known_unit(text: str) -> str:
+    """Return the unit that a word is, in brackets or not: "Seconds" and "[s]" are "s"; "" of any other word."""
+    return _UNITS.get(text.strip().strip("[]()").strip().lower(), "")
+
+
+def unit_of(parameter: str, names: Iterable[str], below: Iterable[str] = ()) -> str | None:
+    """Return the unit that names of columns agree on, or else the units in the line below them; None without any.
 
     Raises
     ------
     NotStated
         They say several; `parameter` is what states it.
     """
-    units = {said.unit for said in map(column, names) if said is not None} - {""}
+    named = {said.unit for said in map(column, names) if said is not None} - {""}
+    units = named or set(below) - {""}
     if len(units) > 1:
         raise NotStated(parameter, f"{parameter}: the columns say {' and '.join(sorted(units))}. State one of them.")
     return units.pop() if units else None
@@ -119,6 +125,6 @@ def _parted(name: str) -> tuple[str, str]:
     if match is None:
         return name, ""
     if match["bracketed"] is not None:
-        return match["name"], _UNITS.get(match["bracketed"].lower(), "")
-    unit = _UNITS.get(match["unit"].lower(), "")
+        return match["name"], known_unit(match["bracketed"])
+    unit = known_unit(match["unit"])
     return (match["name"], unit) if unit else (name, "")

@@ -37,6 +37,7 @@ class _Table:
     header: list[str]  # empty when no line names the columns
     bodies: dict[str, dict[str, int]]  # body -> x y z qx qy qz qw -> column
     time: int | None
+    units: list[str]
     notes: list[str]
 
     def called(self, place: int) -> str:
@@ -48,8 +49,9 @@ class _Table:
         return self.cells.numbers([self.time], [self.called(self.time)])[:, 0]
 
     def unit(self, parameter: str, columns: list[int]) -> str | None:
-        """Return the unit in the names of some columns, None if there is none."""
-        return unit_of(parameter, [self.header[place] for place in columns if place < len(self.header)])
+        """Return the unit in the names of some columns, or in the line below them; None if there is none."""
+        names, below = ([line[place] for place in columns if place < len(line)] for line in (self.header, self.units))
+        return unit_of(parameter, names, below)
 
     def world(self, body: str, stated: Stated) -> World:
         """Return the units that the names of the columns say, where the caller does not."""
@@ -90,7 +92,7 @@ def _table(path: Path, stated: Stated) -> _Table:
     columns = stated.columns
     if isinstance(columns, Mapping) and all(isinstance(place, int) for place in columns.values()):
         where = stated_columns(columns, lambda stated: _place(stated, {}), bool(stated.fixed_orientation))
-        return _Table(Cells(lines.rows), lines.names, {WHOLE: where}, where.get("time"), lines.notes)
+        return _Table(Cells(lines.rows), lines.names, {WHOLE: where}, where.get("time"), lines.units, lines.notes)
     if not lines.names:
         raise _nameless(lines)
     if not lines.rows:
@@ -112,14 +114,14 @@ def _named(lines: TableLines, columns: Mapping[str, str | int] | None, position_
     if columns is not None:
         places = {name: place for place, name in enumerate(header)}
         where = stated_columns(columns, lambda stated: _place(stated, places), position_only)
-        return _Table(cells, header, {WHOLE: where}, where.get("time"), lines.notes)
+        return _Table(cells, header, {WHOLE: where}, where.get("time"), lines.units, lines.notes)
     found = bodies_in(header) or (bodies_in(header, position_only=True) if position_only else {})
     if not found:
         raise _bodyless(header)
     times = times_in(header)
     if len(times) > 1:
         raise NotStated("columns", f"{len(times)} columns of time in the header {shown(header)}. State the columns.")
-    return _Table(cells, header, found, times[0] if times else None, lines.notes)
+    return _Table(cells, header, found, times[0] if times else None, lines.units, lines.notes)
 
 
 def _nameless(lines: TableLines) -> NotStated:

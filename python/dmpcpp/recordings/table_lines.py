@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.cells import Row, split, split_all
+from dmpcpp.recordings.column_names import known_unit
 from dmpcpp.recordings.text import data_lines
 
 __all__ = ["TableLines", "is_data", "shown", "table_lines"]
@@ -20,11 +21,13 @@ _LOOKED_AT = 20  # lines of data that show whether commas are decimal
 class TableLines:
     """A table's lines of data, the names of its columns, none if no line names them, and what was done to read it.
 
-    `commented` says that the names stand in a comment above the data, as NumPy writes them.
+    `units` are those of a line below the names, one a column, none if there is no such line; `commented` says that the
+    names stand in a comment above the data, as NumPy writes them.
     """
 
     rows: list[Row]
     names: list[str]
+    units: list[str]
     delimiter: str
     commented: bool
     notes: list[str]
@@ -51,12 +54,13 @@ def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
     first = [cell.strip() for cell in split(lines[0][1], delimiter, lines[0][0])]
     headed = not is_data(first)
     names = first if headed else _commented(text, lines[0][0], len(first), delimiter)
-    data = lines[1:] if headed else lines
+    units = _units(lines[1:2], delimiter) if headed else []
+    data = lines[headed + bool(units) :]
     notes = []
     if delimiter != "," and _has_decimal_commas(data, delimiter):
         data = [(line, content.replace(",", ".")) for line, content in data]
         notes.append("decimal commas read as points")
-    return TableLines(split_all(data, delimiter), names, delimiter, bool(names) and not headed, notes)
+    return TableLines(split_all(data, delimiter), names, units, delimiter, bool(names) and not headed, notes)
 
 
 def is_data(cells: list[str]) -> bool:
@@ -80,6 +84,13 @@ def _delimiter(line: str) -> str:
         "delimiter",
         f"delimiter: the first line holds {' and '.join(map(repr, held)) or 'none of , ; tab'}. State it.",
     )
+
+
+def _units(below: list[tuple[int, str]], delimiter: str) -> list[str]:
+    """Return the units in the line below the names, "" of a column without one; none if it is no line of units."""
+    cells = [cell for line, content in below for cell in split(content, delimiter, line)]
+    units = [known_unit(cell) for cell in cells]
+    return units if any(units) and not any(map(_is_number, cells)) else []
 
 
 def _is_number(cell: str) -> bool:
