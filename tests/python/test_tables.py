@@ -99,6 +99,14 @@ def test_angles_are_found_by_name_and_their_unit_in_it(tmp_path):
     assert_same_motion(recordings.load(path, euler_order="ZYX"))
 
 
+def test_degrees_that_pass_for_radians_are_refused(tmp_path):
+    angles = np.column_stack([5.0 * np.arange(12), 0.0 * TIMES, 0.0 * TIMES])
+    path = write(tmp_path / "a.csv", np.column_stack([TIMES, POSITIONS, angles]), [*HEADER[:4], "rx", "ry", "rz"])
+    with pytest.raises(InvalidArgument, match="rx ranges over 55 rad, more than four turns. Are these degrees"):
+        recordings.load(path, euler_order="ZYX", angle_unit="rad")
+    assert len(recordings.load(path, euler_order="ZYX", angle_unit="deg")) == 12
+
+
 @pytest.mark.parametrize("delimiter", [";", "\t", " "])
 def test_decimal_commas_are_read_where_the_comma_parts_no_cells(tmp_path, delimiter):
     path = write(tmp_path / "a.csv", delimiter=delimiter)

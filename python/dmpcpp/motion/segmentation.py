@@ -125,7 +125,7 @@ def _pace(recording: Recording, rest: float, angle_weight: float) -> tuple[Array
 
 def _noise_speed(found: Noise, rate: float, angle_weight: float) -> float:
     """Return the speed [m/s] that noise has in central differences of positions and in differences of orientations."""
-    return _MEAN_LENGTH * rate * (found.position / np.sqrt(2) + np.sqrt(2) * angle_weight * found.angle)
+    return float(_MEAN_LENGTH * rate * (found.position / np.sqrt(2) + np.sqrt(2) * angle_weight * found.angle))
 
 
 def _can_be_filtered(recording: Recording) -> bool:

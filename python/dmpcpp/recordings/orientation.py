@@ -31,6 +31,7 @@ REFUSE_ABOVE = 0.1
 """Further off than this it is not a measured rotation: wrong columns, corrupt or filtered data."""
 HELD_FIXED = "no orientation recorded: held fixed, as stated"
 """What the history says of `held_fixed`."""
+_MOST_TURNS = 8 * np.pi  # rad; degrees pass for radians below
 _ROUNDING = 1e-9  # below this nothing is worth a word
 
 
@@ -163,6 +164,12 @@ def from_euler(angles: Array, order: str | None, unit: str | None, missing: NDAr
     missing = np.zeros(len(angles), dtype=bool) if missing is None else missing
     angles = np.where(missing[:, None], 0.0, angles)
     _check_finite("angles", angles)
+    if unit == "rad" and np.ptp(angles, axis=0).max() > _MOST_TURNS:
+        k = int(np.argmax(np.ptp(angles, axis=0)))
+        raise InvalidArgument(
+            f"angle_unit: r{'xyz'[k]} ranges over {np.ptp(angles[:, k]):.4g} rad, more than four turns. Are these "
+            "degrees? State angle_unit='deg', or write the angles within one turn."
+        )
     sorted_angles = angles[:, ["xyz".index(axis) for axis in order.lower()]]
     return _blanked(Rotation.from_euler(order, sorted_angles, degrees=unit == "deg").as_matrix(), missing)
 

@@ -74,7 +74,8 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     body = pick_body(body, tuple(table.bodies))
     where = table.bodies[body]
     if stated.angle_unit is None and "rx" in where:
-        stated = replace(stated, angle_unit=table.unit("angle_unit", [where[name] for name in ANGLES]))
+        unit = table.unit("angle_unit", [where[name] for name in ANGLES])
+        stated = replace(stated, angle_unit=unit)  # type: ignore[arg-type]  # another unit is refused below
     position, rotation, notes = pose(table.cells, where, table.called, stated)
     return stated.recording(
         time=table.times(stated.rate),
