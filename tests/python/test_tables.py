@@ -182,6 +182,31 @@ def test_a_number_in_all_of_a_pose_is_asked_about(tmp_path, mark):
     assert np.flatnonzero(recordings.load(path, missing=mark).missing).tolist() == [4]
 
 
+def test_a_jump_to_the_very_origin_is_asked_about_and_a_motion_from_it_is_not(tmp_path):
+    rows = ROWS.copy()
+    rows[4:6, 1:] = [0, 0, 0, 0, 0, 0, 1]
+    path = write(tmp_path / "a.csv", rows)
+    with pytest.raises(InvalidArgument, match="line 6: x, y and z are 0, more than 3 times further.*state missing=0"):
+        recordings.load(path)
+    assert np.flatnonzero(recordings.load(path, missing=0).missing).tolist() == [4, 5]
+    assert len(recordings.load(path, missing="nan").time) == 12  # it is where it was
+    rows = ROWS.copy()
+    rows[:, 1:4] -= rows[0, 1:4]
+    assert len(recordings.load(write(tmp_path / "b.csv", rows))) == 12
+
+
+def test_times_that_are_no_numbers_or_have_another_name_ask_for_the_rate(tmp_path):
+    path = write(tmp_path / "a.csv", header=["Zeit", *HEADER[1:]])
+    with pytest.raises(NotStated, match=r"no column of \[Zeit, .*is called time.*rate=100, or which it is: columns="):
+        recordings.load(path)
+    assert_same_motion(recordings.load(path, rate=10.0))
+    path = write(tmp_path / "b.csv")
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([lines[0], "10:00:00.0" + lines[1][3:], *lines[2:]]))
+    with pytest.raises(InvalidArgument, match="line 2, column 'time': '10:00:00.0'.*state the sampling rate in Hz"):
+        recordings.load(path)
+
+
 def test_a_sample_written_twice_counts_once(tmp_path):
     recording = recordings.load(write(tmp_path / "a.csv", np.repeat(ROWS, 2, axis=0)))
     assert_same_motion(recording)

@@ -22,6 +22,7 @@ ANGLES = ("rx", "ry", "rz")
 
 
 _LEAST_MARK = 999.0  # of numbers that are written in place of a sample: -999, 9999, -9999, ..
+_JUMP = 3.0  # times the largest other step: nobody starts or stops that suddenly at the very origin
 _ADVICE = " If this marks a lost sample, state missing='{}'."
 
 
@@ -50,7 +51,9 @@ def pose(
     columns = [where[name] for name in names]
     values = _marking(cells, stated.missing).numbers(columns, [called(column) for column in columns])
     lost = np.isnan(values).any(axis=1) | _marked(values[:, :3], stated.missing)
-    _check_marks(cells, values, lost, stated.missing)
+    if stated.missing is None:
+        _check_marks(cells, values, lost)
+        _check_zeros(cells, values[:, :3], lost)
     values[lost] = np.nan
     rotation, notes = _turned(values[:, 3:], lost, stated)
     return values[:, :3], rotation, notes
@@ -111,16 +114,29 @@ def _marked(position: Array, missing: object) -> NDArray[np.bool_]:
     return np.asarray((position == missing).all(axis=1))
 
 
-def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_], missing: object) -> None:
+def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_]) -> None:
     """Refuse a number that stands in all of a pose and can not: the mark of a lost sample that was not stated."""
     mark = values[:, 0]
-    impossible = (
-        np.abs(2.0 * np.abs(mark) - 1.0) > REFUSE_ABOVE if values.shape[1] == 7 else np.abs(mark) >= _LEAST_MARK
-    )
+    with_quaternion = values.shape[1] == len(POSITION) + len(QUATERNION)
+    impossible = np.abs(2.0 * np.abs(mark) - 1.0) > REFUSE_ABOVE if with_quaternion else np.abs(mark) >= _LEAST_MARK
     found = ~lost & impossible & (values == mark[:, None]).all(axis=1)
-    if missing is None and found.any():
+    if found.any():
         k = int(np.argmax(found))
         raise InvalidArgument(
             f"line {cells.rows[k][0]}: {mark[k]:.12g} in every column of the pose. If this marks a lost sample, state "
             f"missing={mark[k]:.12g}."
+        )
+
+
+def _check_zeros(cells: Cells, position: Array, lost: NDArray[np.bool_]) -> None:
+    """Refuse a jump to the very origin and back, which some systems write for a body that they do not see."""
+    zero = (position == 0.0).all(axis=1)
+    steps = np.linalg.norm(np.diff(position, axis=0), axis=1)
+    jumps = (zero[1:] != zero[:-1]) & ~lost[1:] & ~lost[:-1]
+    within = steps[~zero[1:] & ~zero[:-1] & ~lost[1:] & ~lost[:-1]]
+    if jumps.any() and len(within) and steps[jumps].min() > _JUMP * within.max():
+        k = int(np.argmax(zero))
+        raise InvalidArgument(
+            f"line {cells.rows[k][0]}: x, y and z are 0, more than {_JUMP:g} times further off than any other step. "
+            "If this marks a lost sample, state missing=0; if not, missing='nan'."
         )

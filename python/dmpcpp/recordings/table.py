@@ -44,9 +44,16 @@ class _Table:
         return f"column {self.header[place]!r}" if place < len(self.header) else f"column {place}"
 
     def times(self, rate: float | None) -> Array:
+        if rate is None and self.time is None and self.header:
+            raise NotStated(
+                "rate",
+                f"rate: the file holds no times: no column of {shown(self.header)} is called time. State the sampling "
+                "rate in Hz: rate=100, or which it is: columns={'time': ..., 'x': ..., ...}.",
+            )
         if rate is not None or self.time is None:
             return times_at_rate(len(self.cells.rows), rate)
-        return self.cells.numbers([self.time], [self.called(self.time)])[:, 0]
+        cells = replace(self.cells, advice=" Where times are no numbers, state the sampling rate in Hz: rate=100.")
+        return cells.numbers([self.time], [self.called(self.time)])[:, 0]
 
     def unit(self, parameter: str, columns: list[int]) -> str | None:
         """Return the unit in the names of some columns, or in the line below them; None if there is none."""
