@@ -67,3 +67,14 @@ def test_every_message_of_the_troubleshooting_page_is_one_of_the_programs():
         for message in re.findall(r"`([^`]+)`", row):
             for part in re.split(r"\.\.\.|-?\d+\.\d+", message):  # dots stand for what differs, as numbers do
                 assert part.strip() in joined, part
+
+
+def test_every_number_of_the_comparison_stands_on_the_page_that_it_names():
+    rows = re.findall(
+        r"^\|[^|]*\|([^|]*)\|([^|]*)\| \[\w+\]\(([a-z-]+\.md)\) \|$", (DOCS / "comparison.md").read_text(), re.M
+    )
+    assert len(rows) >= 8
+    for ours, theirs, page in rows:
+        text = (DOCS / page).read_text()
+        for number in re.findall(r"\d+(?:\.\d+)?", ours + theirs):
+            assert re.search(rf"(?<![\d.]){re.escape(number)}(?![\d.])", text), f"{number} of {ours} | {theirs}"

@@ -75,7 +75,8 @@ def reader_of(path: str | PathLike[str], format: str | None = None) -> Reader:
     for reader in _ORDERED:
         if reader.recognises(path, head):
             return reader
-    raise NotStated("format", f"{path.name}: the format can not be told.{_hint(head)} State format=..., one of:\n{_listed()}")
+    said = f"{path.name}: the format can not be told.{_hint(head)} State format=..., one of:\n{_listed()}"
+    raise NotStated("format", said)
 
 
 def _hint(head: bytes) -> str:
