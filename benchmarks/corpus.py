@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -65,11 +66,11 @@ def table(outcomes: list[batch.Outcome]) -> str:
 
 
 def reason(outcome: batch.Outcome) -> str:
-    """Return the checks that failed, or the part of an error that says what is wrong, without its numbers."""
+    """Return the checks that failed, or the first words of an error, without its file and its numbers."""
     if outcome.verdict == "fail":
         return outcome.cause
     said = outcome.cause.removeprefix(f"{Path(outcome.file).name}: ")
-    return said.split(":")[0].split("[")[0].split(". ")[0][:100]
+    return re.split(r";|\. |, expected", re.sub(r"-?\d+(\.\d+)?", "..", said))[0]
 
 
 @click.command()

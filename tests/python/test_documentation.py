@@ -9,6 +9,7 @@ import pytest
 from dmpcpp.cli import main
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
+KINDS = {".py", ".cpp", ".hpp"}
 
 
 @pytest.mark.slow
@@ -48,3 +49,32 @@ def test_every_option_that_the_guide_types_exists():
             name, *rest = line.split()
             options = {option for parameter in main.commands[name].params for option in parameter.opts}
             assert {word for word in rest if word.startswith("--")} <= options | {"--help"}, line
+
+
+def test_every_public_module_stands_in_the_reference():
+    package = DOCS.parent / "python" / "dmpcpp"
+    modules = {path.stem for path in package.iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()}
+    hidden = {"__init__", "__main__", "_core", "cli", "atomic", "imitation_files"}  # the command line has its own page
+    named = set(re.findall(r"automodule:: dmpcpp\.(\w+)", (DOCS / "python-api.md").read_text()))
+    assert named - {"_core", "so3"} == modules - hidden
+
+
+def test_every_message_of_the_troubleshooting_page_is_one_of_the_programs():
+    files = [path for room in ("python", "cpp") for path in (DOCS.parent / room).rglob("*") if path.suffix in KINDS]
+    program = " ".join(" ".join(path.read_text().split()) for path in files)
+    joined = re.sub(r'" f?"', "", program)  # a literal over several lines
+    for row in re.findall(r"^\| ([^|]*`[^|]*) \|", (DOCS / "troubleshooting.md").read_text(), flags=re.M):
+        for message in re.findall(r"`([^`]+)`", row):
+            for part in re.split(r"\.\.\.|-?\d+\.\d+", message):  # dots stand for what differs, as numbers do
+                assert part.strip() in joined, part
+
+
+def test_every_number_of_the_comparison_stands_on_the_page_that_it_names():
+    rows = re.findall(
+        r"^\|[^|]*\|([^|]*)\|([^|]*)\| \[\w+\]\(([a-z-]+\.md)\) \|$", (DOCS / "comparison.md").read_text(), re.M
+    )
+    assert len(rows) >= 8
+    for ours, theirs, page in rows:
+        text = (DOCS / page).read_text()
+        for number in re.findall(r"\d+(?:\.\d+)?", ours + theirs):
+            assert re.search(rf"(?<![\d.]){re.escape(number)}(?![\d.])", text), f"{number} of {ours} | {theirs}"

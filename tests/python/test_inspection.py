@@ -153,7 +153,7 @@ def test_the_command_leaves_with_2_and_one_line_where_the_file_can_not_be_read(t
     assert done.returncode == 2
     assert done.stderr == (
         "dmpcpp: a.csv: line 9, column 'x': an empty cell, expected a number. If this marks a lost sample, state "
-        "missing='empty'.\n"
+        "--missing empty.\n"
     )
     assert run(path, "--missing", "empty").returncode == 0
     assert run(path, "--body", "foot").returncode == 2

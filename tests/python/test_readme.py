@@ -19,6 +19,12 @@ def test_the_readme_shows_the_example(language, file):
     assert (ROOT / "examples" / file).read_text() in blocks(language)
 
 
+def test_every_link_of_the_readme_leads_somewhere():
+    links = re.findall(r"\]\(([^)#]+)\)", (ROOT / "README.md").read_text())
+    assert len(links) > 10
+    assert [link for link in links if not (ROOT / link).is_file()] == []
+
+
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 NEEDS = {"08_physics.py": ["pybullet"], "09_human_to_robot.py": ["pybullet", "matplotlib"]}
 

@@ -18,7 +18,7 @@ PLAN = ("plan", "model.json", "--simulator", "none")
 # What is typed, the argument that is named, what came, what was expected or what to do.
 WRONG = {
     "no such recording": (("fit", "nowhere.bvh"), "nowhere.bvh", "can not be read", "No such file"),
-    "no recording": (("fit", "text.bvh", "--unit", "cm"), "text.bvh", "format can not be told", "State format"),
+    "no recording": (("fit", "text.bvh", "--unit", "cm"), "text.bvh", "format can not be told", "State --format"),
     "quaternions in an order unheard of": (("fit", "hand.npz", "--quat-order", "abcd"), "quat_order", "abcd", "wxyz"),
     "quaternions of no order": (("fit", "hand.npz"), "quat_order", "hand.npz", "State"),
     "a unit unheard of": ((*FIT, "--unit", "ell"), "unit", "ell", "expected"),

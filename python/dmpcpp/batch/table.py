@@ -58,6 +58,11 @@ def write_tables(outcomes: Sequence[Outcome], folder: str | PathLike[str]) -> No
     write_text(folder / "index.html", _html(outcomes, folder))
 
 
+def first_line(cause: str) -> str:
+    """Return what fits into the cell of a table for people: some errors list what there is, a line each."""
+    return cause.partition("\n")[0]
+
+
 def _csv(outcomes: Sequence[Outcome]) -> str:
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
@@ -95,7 +100,7 @@ def _row(outcome: Outcome, folder: Path) -> str:
         for stage in ("demonstration_to_dmp", "ik_to_executed")
         for measure, scale in (("position_rmse", 1e3), ("angle_rmse", math.degrees(1.0)))
     ]
-    cells = [*numbers, f"{outcome.slowdown:.2f}" if outcome.errors else "-", escape(outcome.cause)]
+    cells = [*numbers, f"{outcome.slowdown:.2f}" if outcome.errors else "-", escape(first_line(outcome.cause))]
     rest = "".join(f"<td>{cell}</td>" for cell in cells)
     verdict = f'<td class="{outcome.verdict}">{outcome.verdict}</td>'
     return f"<tr><td>{link}</td><td>{escape(outcome.arm)}</td>{verdict}{rest}</tr>"

@@ -130,6 +130,8 @@ def _print(outcomes: list[Outcome], out: Path) -> None:
     from rich.markup import escape
     from rich.table import Table
 
+    from dmpcpp.batch.table import first_line
+
     console = Console(highlight=False)
     table = Table(title="recordings", title_justify="left")
     for title in ("", "recording", "learned mm", "executed mm", "slowdown", "cause"):
@@ -139,7 +141,9 @@ def _print(outcomes: list[Outcome], out: Path) -> None:
         stages = ("demonstration_to_dmp", "ik_to_executed")
         numbers = [f"{1e3 * outcome.errors[s]['position_rmse']:.3g}" if outcome.errors else "-" for s in stages]
         slow = f"{outcome.slowdown:.2f}" if outcome.errors else "-"
-        table.add_row(marks[outcome.verdict], escape(Path(outcome.file).name), *numbers, slow, escape(outcome.cause))
+        table.add_row(
+            marks[outcome.verdict], escape(Path(outcome.file).name), *numbers, slow, escape(first_line(outcome.cause))
+        )
     console.print(table)
     passed = sum(outcome.ok for outcome in outcomes)
     console.print(f"{passed} of {len(outcomes)} verified; written to {out}/", markup=False, soft_wrap=True)

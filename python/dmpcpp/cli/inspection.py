@@ -57,7 +57,8 @@ def _print(found: Inspection) -> None:
         console.print(_markers_table(found))
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
         for name, text in entries.items():
-            console.print(f"{title}: {flag(name)}: {in_flags(text)}", markup=False, soft_wrap=True)
+            said = in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line
+            console.print(f"{title}: {flag(name)}: {said}", markup=False, soft_wrap=True)
     for problem in found.problems:
         console.print(problem, style="bold red", markup=False, soft_wrap=True)
     verdict = "ready to be learned" if found.ok else "not ready to be learned"

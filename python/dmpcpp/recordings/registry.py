@@ -69,13 +69,14 @@ def reader_of(path: str | PathLike[str], format: str | None = None) -> Reader:
     path = Path(path)
     if format is not None:
         if format not in READERS:
-            raise InvalidArgument(f"format: {format!r}, expected one of: {_listed()}.")
+            raise InvalidArgument(f"format: {format!r}, expected one of:\n{_listed()}")
         return READERS[format]
     head = b"" if ros.is_bag_folder(path) else read_bytes(path, _HEAD)
     for reader in _ORDERED:
         if reader.recognises(path, head):
             return reader
-    raise NotStated("format", f"{path.name}: the format can not be told.{_hint(head)} State format=...: {_listed()}.")
+    said = f"{path.name}: the format can not be told.{_hint(head)} State format=..., one of:\n{_listed()}"
+    raise NotStated("format", said)
 
 
 def _hint(head: bytes) -> str:
@@ -113,4 +114,6 @@ def _with_columns(path: str | PathLike[str]) -> str:
 
 
 def _listed() -> str:
-    return "; ".join(f"{name!r} ({summary})" for name, summary in summaries().items())
+    """Return the formats, a line each."""
+    width = max(len(name) for name in READERS)
+    return "\n".join(f"  {name:{width}}  {summary}" for name, summary in summaries().items())
