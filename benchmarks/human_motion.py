@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import dmpcpp
 import numpy as np
-from dmpcpp import motion, recordings
+from dmpcpp import metrics, motion, recordings
 from dmpcpp.recordings import Recording
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
@@ -202,12 +203,13 @@ def mean_executed(folder: Path, arm: str = "panda") -> Iterator[Figure]:
 
 
 def alignment_time() -> Iterator[Figure]:
-    """Time the warping of 1000 on 1000 poses, and the Frechet distance of 300 and 300 points, in one thread."""
+    """Time the warping of 1000 on 1000 poses, and both distances of 300 and 300 points, in one thread."""
     share = np.linspace(0.0, 1.0, 1000)
     a, b = _gesture(share), _gesture(share**1.2)
     yield Figure("align 1000 x 1000 poses", _milliseconds(lambda: dmpcpp.align(a, b)), 20.0, "ms")
     p, q = a[:900:3, :3, 3], b[:900:3, :3, 3]
-    yield Figure("frechet 300 x 300 points", _milliseconds(lambda: dmpcpp.frechet(p, q)), 3.0, "ms")
+    for measure in (metrics.dtw, metrics.frechet):
+        yield Figure(f"{measure.__name__} 300 x 300 points", _milliseconds(partial(measure, p, q)), 3.0, "ms")
 
 
 def _gesture(share: Array) -> Array:

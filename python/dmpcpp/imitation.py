@@ -35,7 +35,7 @@ from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement
-from dmpcpp.simulation import Check, ExecutionLog, Simulator
+from dmpcpp.simulation import Check, Checked, ExecutionLog, Simulator
 
 __all__ = ["STAGES", "Imitation", "PlacementPolicy", "clear_of_itself", "imitate", "learn", "write"]
 
@@ -57,7 +57,7 @@ _RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback n
 
 
 @dataclass(frozen=True, eq=False)
-class Imitation:
+class Imitation(Checked):
     """A motion from recording to execution.
 
     Attributes
@@ -94,17 +94,11 @@ class Imitation:
     noise: Noise
     second_log: ExecutionLog | None = None
 
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
     def summary(self) -> dict[str, Any]:
         """Return what `summary.json` holds; m and rad."""
         return {
-            "verdict": "pass" if self.ok else "fail",
+            **self.judged(),
             "stages": {name: errors.to_dict() for name, errors in self.stages.items()},
-            "checks": [check.to_dict() for check in self.checks],
             "arm": self.log.arm.name,
             "recording": {
                 "source": self.recording.source,

@@ -164,26 +164,16 @@ def frechet(a: ArrayLike, b: ArrayLike) -> float:
 def dtw(a: ArrayLike, b: ArrayLike) -> float:
     """Dynamic time warping distance per sample [unit of the points] of two paths (T, d) and (S, d).
 
-    The least sum of distances over all ways to pair samples going forward only, each step of weight 1, first with
-    first and last with last, divided by max(T, S). Packages differ: this is ``similaritymeasures.dtw`` and
-    ``dtaidistance`` with ``inner_dist="euclidean"``, over max(T, S). Sakoe and Chiba, "Dynamic programming
-    algorithm optimization for spoken word recognition", IEEE TASSP 1978. Blind to a lag and to the tempo.
+    The distance of ``dmpcpp.align``, the least sum of distances over all ways to pair samples going forward only,
+    each step of weight 1, first with first and last with last, divided by max(T, S). Packages differ: this is
+    ``similaritymeasures.dtw`` and ``dtaidistance`` with ``inner_dist="euclidean"``, over max(T, S). Sakoe and
+    Chiba, "Dynamic programming algorithm optimization for spoken word recognition", IEEE TASSP 1978. Blind to a
+    lag and to the tempo. Time and memory (a byte a pair) grow with T S.
     """
     p, q = _series("a", a), _series("b", b)
     if p.shape[1] != q.shape[1]:
         raise InvalidArgument(f"b: {q.shape[1]} columns, expected {p.shape[1]} as in a.")
-    distance = np.linalg.norm(p[:, None] - q[None], axis=2)
-    count, width = distance.shape
-    # The least sum up to (i, j) needs those at (i-1, j), (i, j-1) and (i-1, j-1): go by anti-diagonals.
-    before_last, last = np.full(count + 1, np.inf), np.full(count + 1, np.inf)
-    before_last[0] = 0.0  # nothing precedes the first pair
-    for diagonal in range(count + width - 1):
-        i = np.arange(max(0, diagonal - width + 1), min(count, diagonal + 1))
-        ways = np.minimum(np.minimum(last[i], last[i + 1]), before_last[i])
-        here = np.full(count + 1, np.inf)
-        here[i + 1] = distance[i, diagonal - i] + ways
-        before_last, last = last, here
-    return float(last[count] / max(count, width))
+    return _core.align(p, q).distance / max(len(p), len(q))
 
 
 def margin(values: ArrayLike, limit: ArrayLike) -> float:

@@ -30,7 +30,7 @@ from dmpcpp._core import (
 )
 from dmpcpp.atomic import write_text
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.simulation import Check, Simulator, Tolerances
+from dmpcpp.simulation import Check, Checked, Simulator, Tolerances
 
 __all__ = ["JointPlan", "plan", "write"]
 
@@ -40,7 +40,7 @@ _RESERVE = 1.02  # on the duration that the joint limits ask for: a controller's
 
 
 @dataclass(frozen=True, eq=False)
-class JointPlan:
+class JointPlan(Checked):
     """What an arm would do.
 
     Attributes
@@ -60,16 +60,10 @@ class JointPlan:
     slowdown: float
     checks: tuple[Check, ...]
 
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
         return {
-            "verdict": "pass" if self.ok else "fail",
-            "checks": [check.to_dict() for check in self.checks],
+            **self.judged(),
             "arm": self.arm.name,
             "base": self.arm.base,
             "tip": self.arm.tip,

@@ -18,13 +18,13 @@ from dmpcpp.imitation import clear_of_itself
 from dmpcpp.learning import learn, reproduction, reproduction_checks
 from dmpcpp.motion import Noise
 from dmpcpp.recordings import Recording
-from dmpcpp.simulation import Check
+from dmpcpp.simulation import Check, Checked
 
 __all__ = ["Lesson", "placed", "teach"]
 
 
 @dataclass(frozen=True, eq=False)
-class Lesson:
+class Lesson(Checked):
     """A model and what it was learned from.
 
     Attributes
@@ -47,16 +47,10 @@ class Lesson:
     noise: tuple[Noise, ...]
     checks: tuple[Check, ...]
 
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
     def summary(self) -> dict[str, Any]:
         """Return what `dmpcpp fit --json` prints; m, rad, s."""
         return {
-            "verdict": "pass" if self.ok else "fail",
-            "checks": [check.to_dict() for check in self.checks],
+            **self.judged(),
             "basis_count": self.model.options.basis_count,
             "duration": self.model.duration,
             "start": self.model.start.tolist(),

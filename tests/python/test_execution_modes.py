@@ -147,6 +147,9 @@ def test_what_the_controller_did_not_know_is_said_with_the_verdict(panda):
     log = simulation.execute(panda, swing(panda, 0.2), disturbance=Disturbance(payload=0.1, seed=2))
     assert log.verdict.caveat == "the controller does not know of payload 0.1, seed 2"
     assert log.disturbance.payload == 0.1
+    blind = simulation.execute(panda, swing(panda, 0.2), mode="position", disturbance=Disturbance(payload=0.1))
+    assert "only kinematics" in blind.verdict.caveat
+    assert blind.verdict.caveat.endswith("the controller does not know of payload 0.1")
 
 
 def test_each_gap_between_model_and_arm_costs_accuracy(panda):

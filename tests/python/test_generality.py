@@ -126,6 +126,16 @@ def test_a_motion_without_a_place_names_the_cause(monkeypatch):
     assert result.cause == "placement: recording: no placement found"
 
 
+def test_what_is_refused_where_it_was_drawn_does_not_stop_the_series(monkeypatch):
+    def refused(*_, place=True, **__):
+        raise InvalidArgument("no place" if place else "not even here")
+
+    monkeypatch.setattr("dmpcpp.generality.trial.imitation.imitate", refused)
+    monkeypatch.setattr("dmpcpp.generality.trial._follows", lambda *_: True)
+    result = generality.attempt(Trial("panda", "none", 0, 0))
+    assert not result.ok and result.cause == "placement: no place"
+
+
 # ---- many of them -------------------------------------------------------------------------------------------
 
 

@@ -202,6 +202,14 @@ def test_clearance_is_the_distance_to_the_closest_link():
         assert world.clearance(0.1) == (0.1, "")
 
 
+@pytest.mark.parametrize("place", [[0.5, 0.0, 0.25], [0.5, 0.3, 0.0]])
+def test_whatever_is_touched_has_its_name_the_floor_too(place):
+    low = np.array([0.0, 0.9, 0.0, -1.75, 0.0, 2.55, 0.8])  # the hand in the floor
+    with GraspWorld(arms.find("panda"), 1e-3, PANDA_HAND, Cylinder(), np.array(place)) as world:
+        touched = {contact.other for contact in world.contacts_at(low)}
+    assert "floor" in touched and touched <= {"floor", "stand", "bottle"}
+
+
 # ---- the grasp --------------------------------------------------------------------------------------------
 
 

@@ -198,7 +198,56 @@ def test_the_plan_itself_is_a_log_without_torque(tmp_path, plan):
     assert np.array_equal(read.velocity, plan.velocity)
 
 
-def write_bag(path, log, topics=("/joint_states",), again=0):
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", " "])
+def test_a_table_is_read_whatever_separates_it(tmp_path, executed, delimiter):
+    log = recorded(executed, every=50)
+    path = write_csv(tmp_path / "robot.csv", log)
+    path.write_text(path.read_text().replace(",", delimiter))
+    assert np.array_equal(verification.read_log(path).position, log.position)
+
+
+def test_degrees_and_milliseconds_are_read_as_such(tmp_path, plan, executed):
+    log = recorded(executed)
+    in_degrees = replace(log, position=np.degrees(log.position), velocity=np.degrees(log.velocity))
+    path = write_csv(tmp_path / "robot.csv", in_degrees, scale=1e3)
+    read = verification.read_log(path, time_unit="ms", angle_unit="deg")
+    assert np.allclose(read.position, log.position, atol=1e-12) and np.allclose(read.velocity, log.velocity, atol=1e-12)
+    assert np.array_equal(read.torque, log.torque)
+    with pytest.raises(InvalidArgument, match=r"robot.csv: 'panda_joint\d' is at -?\d+.* rad, far beyond .*degrees"):
+        verification.verify(PANDA, plan, verification.read_log(path, time_unit="ms"))
+    with pytest.raises(InvalidArgument, match=r"of its samples lie within the plan's 2 s, .* 1 s apart.*time_unit"):
+        verification.verify(PANDA, plan, verification.read_log(path, angle_unit="deg"))
+    with pytest.raises(InvalidArgument, match="angle_unit: 'grad', expected one of rad, deg"):
+        verification.read_log(path, angle_unit="grad")
+
+
+def test_of_samples_with_one_time_the_last_is_kept_and_it_is_said(tmp_path, plan, executed):
+    log = recorded(executed, every=4)
+    twice = np.repeat(np.arange(len(log.time)), 2)
+    doubled = replace(
+        executed, **{n: getattr(executed, n)[::4][twice] for n in ("time", "position", "velocity", "torque")}
+    )
+    stale = doubled.position.copy()
+    stale[::2] += 0.01
+    rows = SimpleNamespace(time=doubled.time, position=stale, velocity=doubled.velocity, torque=doubled.torque)
+    read = verification.read_log(write_csv(tmp_path / "robot.csv", rows))
+    assert np.array_equal(read.position, log.position) and np.array_equal(read.torque, log.torque)
+    result = verification.verify(PANDA, plan, read)
+    assert result.ok
+    assert result.notes == (f"{len(log.time)} samples with the time of another left out",)
+
+
+def test_a_silence_before_the_motion_hides_nothing_and_changes_no_rate(plan, executed):
+    log = recorded(executed, every=4)
+    early = JointLog(
+        np.append(log.time[0] - 3600.0, log.time), np.vstack([log.position[:1], log.position]), None, None, NAMES
+    )
+    result = verification.verify(PANDA, plan, early)
+    assert result.ok, [check for check in result.checks if not check.ok]
+    assert result.log.rate == pytest.approx(250.0, rel=1e-9)
+
+
+def write_bag(path, log, topics=("/joint_states",), again=0, stamped=True, gripper=False):
     rosbags = pytest.importorskip("rosbags.rosbag2")
     from rosbags.typesys import Stores, get_typestore
 
@@ -209,7 +258,8 @@ def write_bag(path, log, topics=("/joint_states",), again=0):
         connections = [writer.add_connection(topic, state.__msgtype__, typestore=types) for topic in topics]
         for k in [*range(len(log.time)), *range(again)]:
             now = round(1e9 * log.time[k])
-            head = header(stamp=stamp(sec=now // 10**9, nanosec=now % 10**9), frame_id="")
+            told = now if stamped else 0
+            head = header(stamp=stamp(sec=told // 10**9, nanosec=told % 10**9), frame_id="")
             order = np.arange(7) if k % 2 else np.arange(7)[::-1]  # a publisher may change it
             values = {
                 "position": log.position[k, order],
@@ -217,9 +267,28 @@ def write_bag(path, log, topics=("/joint_states",), again=0):
                 "effort": log.torque[k, order],
             }
             message = state(header=head, name=[NAMES[i] for i in order], **values)
+            finger = state(header=head, name=["finger"], position=np.zeros(1), velocity=np.zeros(0), effort=np.zeros(0))
             for connection in connections:
-                writer.write(connection, now, types.serialize_cdr(message, state.__msgtype__))
+                for content in [finger, message] if gripper else [message]:
+                    writer.write(connection, now, types.serialize_cdr(content, state.__msgtype__))
     return path
+
+
+def test_a_gripper_on_the_same_topic_is_left_out(tmp_path, executed):
+    log = recorded(executed, 10.0, every=50)
+    bag = write_bag(tmp_path / "bag", log, gripper=True)
+    read = verification.read_log(bag, joints=NAMES)
+    assert np.array_equal(read.of(NAMES).position, log.position)
+    assert read.notes[0] == f"{len(log.time)} messages of other joints left out"
+    with pytest.raises(InvalidArgument, match="expected of"):
+        verification.read_log(bag)
+
+
+def test_messages_without_a_stamp_are_timed_by_the_bag(tmp_path, executed):
+    log = recorded(executed, 10.0, every=50)
+    read = verification.read_log(write_bag(tmp_path / "bag", log, stamped=False))
+    assert np.allclose(read.time, log.time - log.time[0], atol=1e-6)
+    assert "no message has a stamp" in read.notes[0]
 
 
 def test_a_ros_2_bag_of_joint_states_is_read(tmp_path, plan, executed):
@@ -248,14 +317,16 @@ def test_of_several_topics_one_is_chosen(tmp_path, executed):
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("", "log.csv: line 1, expected a header"),
-        ("a,b\n1,2\n", "line 1, expected a header: time,<joints>"),
+        ("", "log.csv: line 1: '', expected a header"),
+        ("a,b\n1,2\n", "log.csv: line 1: 'a,b', expected a header: time,<joints>"),
         ("time\n1\n", "line 1, no column of a joint"),
         ("time,a\n0,1\n1\n", "line 3, 1 cells, expected 2"),
         ("time,a\n0,1\n1,x\n", "log.csv: line 3, a: 'x', expected a number"),
         ("time,a\n0,1\n1,nan\n", "line 3, a: nan, expected a finite number"),
         ("time,a\n0,1\n1,1\n2,1\n", r"3 sample\(s\), expected at least 4"),
-        ("time,a\n0,1\n1,1\n1,1\n2,1\n", r"time\[2\]: 1 s after 1 s, expected later"),
+        ("time,a\n0,1\n1,1\n0.5,1\n2,1\n", r"log.csv: time\[2\]: 0.5 s after 1 s, expected later"),
+        ("time;a\n0;1,5\n", "log.csv: line 2, a: '1,5', expected a number"),
+        ("time,a\n\0\n", "log.csv: line 2: binary content"),
         ("time,a,a\n0,1,1\n", "each name once"),
     ],
 )

@@ -166,7 +166,7 @@ def _imitated(task: Task) -> dict[str, Any]:
     imitation.write(run, task.folder)
     if wants_report:
         report.write(task.folder)
-    failed = [check.name for check in run.checks if not check.ok]
+    failed = [check.name for check in run.failed]
     return {
         "verdict": "pass" if run.ok else "fail",
         "cause": ", ".join(failed),

@@ -177,7 +177,7 @@ def _print(run: Grasp, video: Path | None) -> None:
     begins = ", ".join(f"{name} {time:.2f} s" for name, time in run.log.phases.items())
     console.print(f"{begins}; the reach takes {plan.slowdown:.2f} x the recorded duration", soft_wrap=True)
     console.print(_table(run))
-    failed = ", ".join(check.name for check in run.checks if not check.ok)
+    failed = ", ".join(check.name for check in run.failed)
     word, style = ("held up", "bold green") if run.ok else ("not verified", "bold red")
     console.print(word, style=style, end=": ")
     console.print(f"failed: {failed}" if failed else f"{run.log.simulator}, computed torque. {CAVEAT}.", soft_wrap=True)

@@ -220,7 +220,7 @@ _ADVICE = {
 def _reason(run: Imitation) -> str:
     """What was verified, or which checks failed and what to do about the likely cause."""
     how = _how(run)
-    failed = {check.name: check for check in run.checks if not check.ok}
+    failed = {check.name: check for check in run.failed}
     if not failed:
         return how
     first = next((name for name in _ADVICE if name in failed), next(iter(failed)))

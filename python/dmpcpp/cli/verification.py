@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 @arm_options
 @click.option("--topic", metavar="NAME", help="Of the joint states, where a bag has several.")
 @click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Of a CSV log.")
+@click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Of a CSV log.")
 @click.option("--low-pass", default=20.0, show_default=True, metavar="HZ", help="For velocity and acceleration.")
 @click.option(
     "--tolerance",
@@ -53,6 +54,7 @@ def verify(
     tip: str | None,
     topic: str | None,
     time_unit: str,
+    angle_unit: str,
     low_pass: float,
     stated: tuple[str, ...],
     simulator: str,
@@ -69,10 +71,12 @@ def verify(
 
     tolerances = _tolerances(stated)
     joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
+    robot = arms.load(arm, base, tip)
+    options = {"time_unit": time_unit, "angle_unit": angle_unit, "topic": topic}
     result = verification.verify(
-        arms.load(arm, base, tip),
+        robot,
         joints,
-        verification.read_log(log, time_unit=time_unit, topic=topic),
+        verification.read_log(log, **options, joints=robot.joint_names),
         tolerances=tolerances,
         cutoff=low_pass,
         simulator=simulation.ENGINES.get(simulator),
@@ -112,7 +116,7 @@ def _print(result: Verification) -> None:
     console.print(f"the plan began at {1e3 * result.lag:.3f} ms of the log's clock (estimated lag)")
     console.print(_measures_table(result))
     console.print(checks_table(result.checks))
-    failed = [check.name for check in result.checks if not check.ok]
+    failed = [check.name for check in result.failed]
     verdict = "[bold red]not verified[/]" if failed else "[bold green]verified[/]"
     console.print(verdict, end=": ")
     what = f"{len(failed)} of {len(result.checks)} checks failed: {', '.join(failed)}. " if failed else ""

@@ -143,16 +143,12 @@ def _executed(
     """The last run, how many places were searched, and what failed in the last of them."""
     drawn = drawn_placement(changed, arm, random).apply_to(changed)
     if _follows(drawn, arm):
-        run = imitation.imitate(drawn, arm, place=False)
-        if not _failed(run):
+        run, cause = _imitated(drawn, arm, place=False)
+        if not cause:
             return run, 0, ""
     for place in range(_PLACES):
-        try:
-            run = imitation.imitate(changed, arm, seed=trial.seed + place)
-        except InvalidArgument as error:
-            return None, place + 1, f"placement: {error}"
-        cause = _failed(run)
-        if not cause:
+        run, cause = _imitated(changed, arm, seed=trial.seed + place)
+        if run is None or not cause:
             break
     return run, place + 1, cause
 
@@ -164,8 +160,17 @@ def _follows(recording: Recording, arm: Arm) -> bool:
     return joints.report.complete and not simulation.contacts_along(arm, joints.position[::every])
 
 
+def _imitated(recording: Recording, arm: Arm, **options: Any) -> tuple[Imitation | None, str]:
+    """A run, if there is a place for it, and what failed."""
+    try:
+        run = imitation.imitate(recording, arm, **options)
+    except InvalidArgument as error:
+        return None, f"placement: {error}"
+    return run, _failed(run)
+
+
 def _failed(run: Imitation) -> str:
-    failed = [check for check in run.checks if not check.ok and check.name not in _OF_THE_ARM]
+    failed = [check for check in run.failed if check.name not in _OF_THE_ARM]
     return "; ".join(
         f"{check.name} {check.value:.3g} (limit {check.limit:.3g}) {check.detail}".strip() for check in failed
     )

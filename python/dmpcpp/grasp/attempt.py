@@ -12,7 +12,7 @@ from dmpcpp.grasp.planning import GraspPlan, Planner
 from dmpcpp.grasp.task import Bottle
 from dmpcpp.grasp.verdict import judge
 from dmpcpp.recordings.recording import Recording
-from dmpcpp.simulation import Check
+from dmpcpp.simulation import Check, Checked
 
 __all__ = ["CAVEAT", "Grasp", "grasp"]
 
@@ -24,7 +24,7 @@ CAVEAT = (
 
 
 @dataclass(frozen=True, eq=False)
-class Grasp:
+class Grasp(Checked):
     """A grasp from recording to verdict.
 
     Attributes
@@ -43,20 +43,10 @@ class Grasp:
     log: GraspLog
     checks: tuple[Check, ...]
 
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
-    def __getitem__(self, name: str) -> Check:
-        """The check of that name."""
-        return next(check for check in self.checks if check.name == name)
-
     def summary(self) -> dict[str, Any]:
         """Return the grasp for JSON; m, s and rad."""
         return {
-            "verdict": "pass" if self.ok else "fail",
-            "checks": [check.to_dict() for check in self.checks],
+            **self.judged(),
             "arm": self.arm.name,
             "bottle": asdict(self.plan.bottle),
             "recording": {

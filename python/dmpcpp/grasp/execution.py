@@ -48,7 +48,7 @@ class GraspLog:
     clipped_steps : int
         In which the torque of a joint was cut at its limit.
     contacts : tuple of ContactEvent
-        Of anything but the fingers with the bottle; looked at in every record.
+        Of anything but the fingers with the bottle, in every step.
     """
 
     simulator: str
@@ -135,9 +135,10 @@ class _Run:
         for k in range(total):
             if k == close:
                 world.grip(0.0)
-            if k % _RECORD_EVERY == 0 and not self._record(k, float(reference.time[k])):
+            if k % _RECORD_EVERY == 0 and not self._record(k):
                 return
             self._drive(reference.position[k], reference.velocity[k], reference.acceleration[k])
+            self._touch(k, float(reference.time[k]))
             self.done = k + 1
             if progress and (k % 100 == 0 or k + 1 == total):
                 progress((k + 1) / total)
@@ -153,16 +154,21 @@ class _Run:
         self._world.apply_torque(demand)
         self._world.step()
 
-    def _record(self, k: int, time: float) -> bool:
+    def _record(self, k: int) -> bool:
         """Keep where everything was at step k; False if the state is no longer finite."""
         world, m = self._world, k // _RECORD_EVERY
         self._position[m], self._opening[m] = world.state()[0], world.opening()
         self._tool_pose[m], self._object_pose[m] = world.tool_pose(), world.object_pose()
-        events = (ContactEvent(k, time, contact) for contact in world.contacts())
-        self._contacts += [event for event in events if not self._is_grip(event)]
         finite = bool(np.isfinite(self._position[m]).all() and np.isfinite(self._object_pose[m]).all())
         self.records = m + finite
         return finite
+
+    def _touch(self, k: int, time: float) -> None:
+        """Keep what touched in step k."""
+        for contact in self._world.contacts():
+            event = ContactEvent(k, time, contact)
+            if not self._is_grip(event):
+                self._contacts.append(event)
 
     def _is_grip(self, event: ContactEvent) -> bool:
         return event.contact.other == GraspWorld.object_name and event.contact.link in self._fingers

@@ -89,4 +89,4 @@ def _contacts(log: GraspLog) -> Iterator[Check]:
         first = min(events, key=lambda event: event.step, default=None)
         count = len({event.step for event in events})
         where = f"{first.contact.link} and {first.contact.other}" if first else ""
-        yield Check(name, count == 0, count, 0, "records", first.time if first else None, where)
+        yield Check(name, count == 0, count, 0, "steps", first.time if first else None, where)

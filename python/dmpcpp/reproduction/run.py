@@ -10,7 +10,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.reproduction import repetition
 from dmpcpp.reproduction.experiments import PositionExperiment, RotationExperiment, helix, rotation
 from dmpcpp.reproduction.repetition import NoiseLevel
-from dmpcpp.simulation import Check
+from dmpcpp.simulation import Check, Checked
 
 SOURCE_ERRORS = (0.327, 0.116, 10.5)
 """Largest errors of the source's equations on its helix in x, y, z: an independent computation with numpy."""
@@ -22,7 +22,7 @@ _CONVENTIONS = ("source", "ZYX")
 
 
 @dataclass(frozen=True, eq=False)
-class Reproduction:
+class Reproduction(Checked):
     """The source's experiments under its own equations and under the default.
 
     Attributes
@@ -43,19 +43,13 @@ class Reproduction:
     seed: int
     checks: tuple[Check, ...]
 
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
     def summary(self) -> dict[str, Any]:
         """Return what `summary.json` holds; the helix has no unit, the rest is in m and rad."""
         return {
-            "verdict": "pass" if self.ok else "fail",
+            **self.judged(),
             "helix": self.helix.to_dict(),
             "rotations": [experiment.to_dict() for experiment in self.rotations],
             "repetition": {"seed": self.seed, "levels": [level.to_dict() for level in self.levels]},
-            "checks": [check.to_dict() for check in self.checks],
         }
 
 

@@ -5,6 +5,7 @@ MuJoCo are imported when they are first needed; without them ``execute`` raises 
 """
 
 from dmpcpp.simulation.bullet import Bullet
+from dmpcpp.simulation.check import Check, Checked
 from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.execution import execute
 from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
@@ -18,7 +19,7 @@ from dmpcpp.simulation.reference import Reference, from_rest_to_rest
 from dmpcpp.simulation.second_opinion import AgreementTolerances, agreement
 from dmpcpp.simulation.simulator import Clearance, Contact, Simulator
 from dmpcpp.simulation.torque_scaling import torque_duration_factor
-from dmpcpp.simulation.verdict import Check, Tolerances, Verdict, judge
+from dmpcpp.simulation.verdict import Tolerances, Verdict, judge
 
 ENGINES = {"bullet": Bullet, "mujoco": MuJoCo}
 """The engines by the names of the command line."""
@@ -30,6 +31,7 @@ __all__ = [
     "Box",
     "Bullet",
     "Check",
+    "Checked",
     "Clearance",
     "Contact",
     "ContactEvent",

@@ -25,9 +25,8 @@ from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.obstacles import Box
 from dmpcpp.simulation.quiet import quiet
 from dmpcpp.simulation.robot_description import RobotDescription, describe
-from dmpcpp.simulation.simulator import FLOOR
+from dmpcpp.simulation.simulator import FLOOR, GRAVITY, checked_time_step
 
-_GRAVITY = -9.81  # m/s^2 along z of the URDF's root
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
 
 
@@ -45,10 +44,7 @@ class BulletWorld:
         obstacles: Sequence[Box] = (),
     ) -> None:
         """Load the arm into a world of its own."""
-        if not (np.isfinite(time_step) and time_step > 0.0):
-            raise InvalidArgument(f"time_step: {time_step}, expected a positive number of seconds.")
-        self.arm = arm
-        self.time_step = float(time_step)
+        self.arm, self.time_step = arm, checked_time_step(time_step)
         self._p = _pybullet()
         with quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
@@ -63,7 +59,7 @@ class BulletWorld:
     def _set_up(self, floor: float | None, visuals: bool, disturbance: Disturbance) -> None:
         options = {"numSolverIterations": 100, "deterministicOverlappingPairs": 1}
         self._p.setPhysicsEngineParameter(self.time_step, **options, physicsClientId=self._client)
-        self._p.setGravity(0.0, 0.0, _GRAVITY, physicsClientId=self._client)
+        self._p.setGravity(0.0, 0.0, GRAVITY, physicsClientId=self._client)
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(self.arm, Path(folder), visuals=visuals, disturbance=disturbance)
             self._body = self._load(description.text, Path(folder, "arm.urdf"))

@@ -101,10 +101,10 @@ class ExecutionLog:
         """What this mode can not see."""
         if self.mode == "recorded":
             return _RECORDED
+        unknown = f"the controller does not know of {self.disturbance}" if self.disturbance != Disturbance() else ""
         if self.mode != "computed_torque":
-            return _MOTORS
-        disturbed = self.disturbance != Disturbance()
-        return f"the controller does not know of {self.disturbance}" if disturbed else _KNOWS_ALL
+            return f"{_MOTORS}; {unknown}" if unknown else _MOTORS
+        return unknown or _KNOWS_ALL
 
     @cached_property
     def errors(self) -> StageErrors:

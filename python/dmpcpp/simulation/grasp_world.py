@@ -60,7 +60,7 @@ class GraspWorld(Bullet):
         try:
             self._fingers = self._find_fingers()
             self._couple_fingers()
-            self._others = self._add_stand(place)
+            self._others |= self._add_stand(place)
             self._object = self._add_cylinder(cylinder, place)
             self._others[self._object] = self.object_name
         except BaseException:
@@ -175,7 +175,7 @@ class GraspWorld(Bullet):
 
     def _colours(self) -> list[tuple[int, list[float]]]:
         blue, grey = [0.16, 0.42, 0.72, 1.0], [0.6, 0.6, 0.58, 1.0]
-        return [(body, blue if body == self._object else grey) for body in self._others]
+        return [(body, blue if body == self._object else grey) for body in self._others if body != self._floor]
 
     def _give_friction(self, body: int, link: int, friction: Friction) -> None:
         kinds: dict[str, Any] = {
@@ -184,9 +184,3 @@ class GraspWorld(Bullet):
             "rollingFriction": friction.rolling,
         }
         self._p.changeDynamics(body, link, **kinds, physicsClientId=self._client)
-
-    def _names_of(self, point: Any) -> tuple[str, str]:
-        """The object or its stand by name, where the other body is one of them."""
-        if point[2] in self._others:
-            return self._link_names[point[3]], self._others[point[2]]
-        return super()._names_of(point)

@@ -24,9 +24,8 @@ from dmpcpp.simulation.disturbance import Disturbance
 from dmpcpp.simulation.obstacles import Box
 from dmpcpp.simulation.quiet import quiet
 from dmpcpp.simulation.robot_description import RobotDescription, describe
-from dmpcpp.simulation.simulator import FLOOR, Clearance, Contact
+from dmpcpp.simulation.simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step
 
-_GRAVITY = -9.81  # m/s^2 along z of the URDF's root
 _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
 _COMPILER = '<mujoco><compiler fusestatic="false" strippath="false"/></mujoco>'
 """In the URDF: a link that is fixed to another keeps its name, a mesh its folder."""
@@ -70,10 +69,7 @@ class MuJoCo:
         obstacles: Sequence[Box] = (),
     ) -> None:
         """Load the arm into a world of its own."""
-        if not (np.isfinite(time_step) and time_step > 0.0):
-            raise InvalidArgument(f"time_step: {time_step}, expected a positive number of seconds.")
-        self.arm = arm
-        self.time_step = float(time_step)
+        self.arm, self.time_step = arm, checked_time_step(time_step)
         self._m = _mujoco()
         self.name = f"MuJoCo {importlib.metadata.version('mujoco')}"
         disturbance = disturbance or Disturbance()
@@ -199,7 +195,7 @@ class MuJoCo:
             reason = " ".join(str(error).split())
             raise InvalidArgument(f"arm.urdf: MuJoCo can not load '{self.arm.name}': {reason}") from None
         model.opt.timestep = self.time_step
-        model.opt.gravity[:] = 0.0, 0.0, _GRAVITY
+        model.opt.gravity[:] = 0.0, 0.0, GRAVITY
         model.opt.integrator = m.mjtIntegrator.mjINT_EULER
         model.opt.disableflags |= int(m.mjtDisableBit.mjDSBL_EULERDAMP)
         return model

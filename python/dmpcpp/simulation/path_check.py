@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.simulation.bullet import Bullet
+from dmpcpp.simulation.check import Check
 from dmpcpp.simulation.robot_description import links_of
 from dmpcpp.simulation.simulator import Clearance, Contact, Simulator, kind_of
-from dmpcpp.simulation.verdict import Check
 
 _FAR = 1.0  # m; what is farther away than this is not looked for
 _NEAR = {"self": "another link", "floor": "the floor", "object": "an obstacle"}

@@ -18,8 +18,10 @@ from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation.convex_pieces import convex_pieces
 from dmpcpp.simulation.disturbance import Disturbance
-from dmpcpp.simulation.urdf_changes import add_payload, freeze, scale_masses
+from dmpcpp.simulation.urdf_changes import add_payload, freeze, normalize_axes, scale_masses
 
+_WITH_MOTORS = ("revolute", "continuous", "prismatic")
+"""Joints that a motor can hold; no engine here moves a planar one, and a floating one would fall off."""
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -68,23 +70,23 @@ def describe(
     disturbance : Disturbance, optional
         Its masses and its payload are put in.
     only_the_arm_moves : bool
-        Fix every other joint (fingers) in the middle of its range.
+        Fix every other joint (fingers) in the middle of its range. Planar and floating ones are always fixed.
 
     Raises
     ------
     InvalidArgument
-        A mesh can not be found, an inertia is not made of finite numbers, or a joint of the arm follows
-        another.
+        A mesh can not be found, a mass is negative, an inertia is not made of finite numbers, or a joint of the
+        arm follows another.
     """
     robot = ET.fromstring(arm.urdf)
     _refuse_folded_joints(robot, arm)
+    normalize_axes(robot)
     links = robot.findall("link")
     for link in links:
         _prepare_shapes(link, arm.folder, folder, visuals)
     repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
     _change(robot, arm, disturbance or Disturbance())
-    if only_the_arm_moves:
-        freeze(robot, arm.joint_names)
+    freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
     groups = _rigid_groups(robot)
     return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
 
@@ -180,6 +182,8 @@ def _repair_inertia(link: ET.Element) -> bool:
         return False
     element = inertial.find("inertia")
     mass = float(getattr(inertial.find("mass"), "attrib", {}).get("value", 0.0))
+    if not 0.0 <= mass < np.inf:
+        raise InvalidArgument(f"arm.urdf: link '{link.get('name')}': <mass>: {mass} kg, expected 0 or more.")
     inertia = _read_inertia(element, link.get("name", ""))
     if is_physical(inertia) or (mass == 0.0 and not inertia.any()):
         return False

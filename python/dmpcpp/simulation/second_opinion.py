@@ -9,8 +9,8 @@ import numpy as np
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import angle_errors, position_errors
+from dmpcpp.simulation.check import Check
 from dmpcpp.simulation.execution_log import ExecutionLog
-from dmpcpp.simulation.verdict import Check
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
+from dmpcpp.errors import InvalidArgument
 
 FLOOR = "floor"
+GRAVITY = -9.81
+"""m/s^2 along z of the URDF's root."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,13 @@ def kind_of(other: str, links: Collection[str]) -> Literal["self", "floor", "obj
     if other in links:
         return "self"
     return "floor" if other == FLOOR else "object"
+
+
+def checked_time_step(time_step: float) -> float:
+    """Return a duration of one step [s] as a float; InvalidArgument for one that is not positive."""
+    if not (np.isfinite(time_step) and time_step > 0.0):
+        raise InvalidArgument(f"time_step: {time_step}, expected a positive number of seconds.")
+    return float(time_step)
 
 
 class Simulator(Protocol):

@@ -37,10 +37,22 @@ def add_payload(robot: ET.Element, tip: str, mass: float, offset: tuple[float, f
     ET.SubElement(joint, "origin", xyz=_text(offset))
 
 
-def freeze(robot: ET.Element, moving: Collection[str]) -> None:
-    """Fix every joint that is not ``moving`` in the middle of its range, as ``Bullet`` holds it by a motor."""
+def normalize_axes(robot: ET.Element) -> None:
+    """Give every joint's axis the length 1, as ``Arm`` does: Bullet takes a longer one for a faster joint."""
+    for axis in robot.iterfind("joint/axis"):
+        vector = _vector(axis.get("xyz", "1 0 0"))
+        length = float(np.linalg.norm(vector))
+        if length > 0.0 and length != 1.0:
+            axis.set("xyz", _text(vector / length))
+
+
+def freeze(robot: ET.Element, moving: Collection[str], types: Collection[str] = ()) -> None:
+    """Fix every joint neither called as in ``moving`` nor of one of ``types``.
+
+    In the middle of its range, as ``Bullet`` holds a finger by a motor.
+    """
     for joint in robot.findall("joint"):
-        if joint.get("type") != "fixed" and joint.get("name") not in moving:
+        if joint.get("type") not in ("fixed", *types) and joint.get("name") not in moving:
             _displace(joint, _middle(joint))
             joint.set("type", "fixed")
             for name in ("axis", "limit", "dynamics", "mimic", "safety_controller", "calibration"):

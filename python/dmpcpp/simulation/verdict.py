@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,45 +12,12 @@ from numpy.typing import NDArray
 
 from dmpcpp.arms import acceleration_limit
 from dmpcpp.metrics import angle_errors, position_errors
+from dmpcpp.simulation.check import Check, Checked
 from dmpcpp.simulation.robot_description import links_of
 from dmpcpp.simulation.simulator import kind_of
 
 if TYPE_CHECKING:
     from dmpcpp.simulation.execution_log import ExecutionLog
-
-
-@dataclass(frozen=True)
-class Check:
-    """One promise.
-
-    Attributes
-    ----------
-    name : str
-    ok : bool
-    value : float
-        What was found.
-    limit : float
-        What was allowed: the most, for a margin the least.
-    unit : str
-        "m", "rad", "s", "1" (a ratio), "steps", "links", "checks".
-    time : float or None
-        Where in the execution the worst is [s].
-    detail : str
-        The joint or the links concerned.
-    """
-
-    name: str
-    ok: bool
-    value: float
-    limit: float
-    unit: str
-    time: float | None = None
-    detail: str = ""
-
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON: numbers of Python's own kinds, None for one that is not finite."""
-        plain = {k: v.item() if isinstance(v, np.generic) else v for k, v in asdict(self).items()}
-        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in plain.items()}
 
 
 @dataclass(frozen=True)
@@ -76,7 +43,7 @@ class Tolerances:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Checked):
     """All checks of an execution.
 
     Attributes
@@ -88,23 +55,6 @@ class Verdict:
 
     checks: tuple[Check, ...]
     caveat: str = ""
-
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
-    @property
-    def failed(self) -> tuple[Check, ...]:
-        """The checks that did not hold."""
-        return tuple(check for check in self.checks if not check.ok)
-
-    def __getitem__(self, name: str) -> Check:
-        """The check of that name."""
-        for check in self.checks:
-            if check.name == name:
-                return check
-        raise KeyError(f"'{name}'; the checks are {', '.join(check.name for check in self.checks)}")
 
 
 ROUNDING = 1e-6

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,19 +12,29 @@ import numpy as np
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
 from dmpcpp.verification.joint_log import JointLog
 
+Stamped = tuple[int, Any]
+"""Time [ns] and message."""
+
 _TYPE = "sensor_msgs/msg/JointState"
 
 
-def read_bag(path: Path, topic: str | None) -> JointLog:
-    """Joint states of one topic by the stamps of their headers, counted from the first; twice the same counts once."""
-    messages = _messages(path, topic)
-    stamped = {_nanoseconds(message): message for message in messages}
-    stamps = sorted(stamped)
-    ordered = [stamped[stamp] for stamp in stamps]
+def read_bag(path: Path, topic: str | None, joints: Sequence[str] | None = None) -> JointLog:
+    """Joint states of one topic, counted from the first; what comes twice with one stamp counts once.
+
+    The time is the stamp of the header, or where no header has one the time at which the bag got the message.
+    Messages without one of ``joints`` are left out, if any has them all.
+    """
+    stamped, notes = _stamped(path, topic)
+    stamped, left_out = _with(stamped, joints or ())
+    if left_out:
+        notes.append(f"{left_out} messages of other joints left out")
+    once = {(stamp, frozenset(message.name)): message for stamp, message in stamped}
+    ordered = [once[key] for key in sorted(once, key=lambda key: key[0])]
+    stamps = sorted(stamp for stamp, _ in once)
     names = tuple(str(name) for name in ordered[0].name)
-    notes = [f"time counted from the first stamp at {stamps[0]} ns"]
-    if len(stamps) < len(messages):
-        notes.append(f"{len(messages) - len(stamps)} messages with the stamp of another left out")
+    notes.append(f"time counted from the first stamp at {stamps[0]} ns")
+    if len(stamps) < len(stamped):
+        notes.append(f"{len(stamped) - len(stamps)} messages with the stamp of another left out")
     return JointLog(
         time=np.array([1e-9 * (stamp - stamps[0]) for stamp in stamps]),
         position=_rows(ordered, "position", names),
@@ -36,13 +46,23 @@ def read_bag(path: Path, topic: str | None) -> JointLog:
     )
 
 
-def _messages(path: Path, topic: str | None) -> list[Any]:
+def _stamped(path: Path, topic: str | None) -> tuple[list[Stamped], list[str]]:
+    """Messages with their times, and what is to be said of these."""
     with _opened(path) as reader:
         connections = _of_topic([c for c in reader.connections if c.msgtype == _TYPE], topic)
-        messages = [reader.deserialize(raw, c.msgtype) for c, _, raw in reader.messages(connections=connections)]
-        if not messages:
+        got = [(when, reader.deserialize(raw, c.msgtype)) for c, when, raw in reader.messages(connections=connections)]
+        if not got:
             raise InvalidArgument(f"no messages on '{connections[0].topic}'.")
-        return messages
+    stamped = [(_nanoseconds(message), message) for _, message in got]
+    if any(stamp for stamp, _ in stamped):
+        return stamped, []
+    return got, ["no message has a stamp: timed by when the bag got it"]
+
+
+def _with(stamped: list[Stamped], joints: Sequence[str]) -> tuple[list[Stamped], int]:
+    """Those that hold all joints, and how many do not."""
+    whole = [(stamp, message) for stamp, message in stamped if set(joints) <= {str(name) for name in message.name}]
+    return (whole, len(stamped) - len(whole)) if whole else (stamped, 0)
 
 
 def _of_topic(connections: list[Any], topic: str | None) -> list[Any]:

@@ -16,7 +16,7 @@ from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.comparison import MotionComparison, compare_motions
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export import JointSamples
-from dmpcpp.simulation import Check, ExecutionLog, Simulator, Tolerances, judge, path_checks
+from dmpcpp.simulation import Check, Checked, ExecutionLog, Simulator, Tolerances, judge, path_checks
 from dmpcpp.simulation.reference import states_at
 from dmpcpp.verification.joint_log import JointLog
 from dmpcpp.verification.lag import estimate_lag
@@ -26,12 +26,14 @@ Array = NDArray[np.float64]
 _AROUND = 1.0  # s of the log before and after the motion that are looked at too
 _COVERAGE = 0.99  # share of the plan that the log must hold
 _GAP = 0.1  # s; a longer silence of the log hides too much
+_SAMPLES = 4  # of the log within the motion, at least
+_TURN = 2.0 * np.pi  # rad (m); no joint is that far beyond its limits: it is another unit
 _NOT_RECORDED = ("finite", "self_collision", "floor_contact", "object_contact", "inertia", "kinematics_mismatch")
 _OF_TORQUE = ("torque_ratio", "torque_clipped")
 
 
 @dataclass(frozen=True, eq=False)
-class Verification:
+class Verification(Checked):
     """How a real arm carried out a plan.
 
     Attributes
@@ -57,15 +59,10 @@ class Verification:
     checks: tuple[Check, ...]
     notes: tuple[str, ...] = ()
 
-    @property
-    def ok(self) -> bool:
-        """Whether every check held."""
-        return all(check.ok for check in self.checks)
-
     def summary(self) -> dict[str, Any]:
         """For JSON; m, rad, s."""
         return {
-            "verdict": "pass" if self.ok else "fail",
+            **self.judged(),
             "arm": self.log.arm.name,
             "source": self.log.simulator,
             "mode": self.log.mode,
@@ -76,7 +73,6 @@ class Verification:
             "comparison": self.comparison.to_dict(),
             "velocity_margin": self.velocity_margin,
             "torque_margin": self.torque_margin,
-            "checks": [check.to_dict() for check in self.checks],
         }
 
 
@@ -91,8 +87,8 @@ def verify(
 ) -> Verification:
     """Hold the log of a real arm against the plan that it was given.
 
-    The log is moved by its estimated lag onto the plan's clock, and sampled evenly at its own mean rate by the
-    cubic spline through it. Tool poses are the arm's forward kinematics of the measured joints. Velocity is the
+    The log is moved by its estimated lag onto the plan's clock, and sampled evenly at the median of its own rate by
+    the cubic spline through it. Tool poses are the arm's forward kinematics of the measured joints. Velocity is the
     measured one, or else the derivative of the spline, and acceleration its difference: both after a zero-phase
     Butterworth low-pass, since the noise of an encoder is no motion.
 
@@ -112,10 +108,12 @@ def verify(
     Raises
     ------
     InvalidArgument
-        Joints are missing in the plan or in the log, the two do not fit in time, or the plan does not move.
+        Joints are missing in the plan or in the log, positions in degrees, the two do not fit in time, or the plan
+        does not move.
     """
     _refuse(arm, joints, cutoff)
     of_arm = log.of(arm.joint_names)
+    _refuse_another_unit(arm, of_arm)
     lag = estimate_lag(joints, of_arm)
     run = _on_the_plans_clock(arm, joints, of_arm, lag, cutoff)
     during = run.motion
@@ -144,14 +142,21 @@ def _refuse(arm: Arm, joints: JointTrajectory | JointSamples, cutoff: float) -> 
         raise InvalidArgument(f"cutoff: {cutoff}, expected a positive number of Hz.")
 
 
+def _refuse_another_unit(arm: Arm, log: JointLog) -> None:
+    beyond = np.maximum(log.position - arm.upper, arm.lower - log.position)
+    sample, joint = np.unravel_index(np.argmax(beyond), beyond.shape)
+    if beyond[sample, joint] > _TURN:
+        raise InvalidArgument(
+            f"{log.source}: '{log.joint_names[joint]}' is at {log.position[sample, joint]:.4g} rad, far beyond its "
+            f"limits of {arm.lower[joint]:.4g} and {arm.upper[joint]:.4g}. Is the log in degrees (angle_unit)?"
+        )
+
+
 def _on_the_plans_clock(
     arm: Arm, joints: JointTrajectory | JointSamples, log: JointLog, lag: float, cutoff: float
 ) -> ExecutionLog:
-    duration = float(joints.time[-1] - joints.time[0])
-    step = float(np.mean(np.diff(log.time)))
-    time = log.time[0] - lag + step * np.arange(len(log.time))
-    time = time[(time >= -_AROUND) & (time <= duration + _AROUND)]
-    inside = np.flatnonzero((time >= -1e-9) & (time <= duration + 1e-9))
+    time, step = _even_times(joints, log, lag)
+    inside = np.flatnonzero((time >= -1e-9) & (time <= joints.time[-1] - joints.time[0] + 1e-9))
     spline = CubicSpline(log.time, log.position)
     at = np.clip(time + lag, log.time[0], log.time[-1])
     velocity = spline(at, 1) if log.velocity is None else CubicSpline(log.time, log.velocity)(at)
@@ -180,6 +185,21 @@ def _on_the_plans_clock(
     )
 
 
+def _even_times(joints: JointTrajectory | JointSamples, log: JointLog, lag: float) -> tuple[Array, float]:
+    """Times on the plan's clock from a sample of the log on, in steps of the median during the motion [s]."""
+    duration = float(joints.time[-1] - joints.time[0])
+    clock = log.time - lag
+    during = clock[(clock >= -1e-9) & (clock <= duration + 1e-9)]
+    if len(during) < _SAMPLES:
+        raise InvalidArgument(
+            f"{log.source}: {len(during)} of its samples lie within the plan's {duration:.3g} s, expected at least "
+            f"{_SAMPLES}; they are {np.median(np.diff(log.time)):.3g} s apart. Is its time in another unit (time_unit)?"
+        )
+    step = float(np.median(np.diff(during)))
+    around = clock[(clock >= -_AROUND) & (clock <= duration + _AROUND)]
+    return around[0] + step * np.arange(1 + int((around[-1] - around[0]) / step + 1e-6)), step
+
+
 def _low_passed(values: Array, rate: float, cutoff: float) -> Array:
     if cutoff >= 0.45 * rate or len(values) < 2:
         return values
@@ -191,7 +211,8 @@ def _log_checks(joints: JointTrajectory | JointSamples, log: JointLog, lag: floa
     """Whether the log holds the motion, and whole."""
     begin, end = lag, lag + float(joints.time[-1] - joints.time[0])
     covered = max(0.0, min(end, float(log.time[-1])) - max(begin, float(log.time[0]))) / (end - begin)
-    gaps = np.diff(log.time)
+    concerned = (log.time[:-1] < end) & (log.time[1:] > begin)  # a silence before or after the motion hides nothing
+    gaps = np.where(concerned, np.diff(log.time), 0.0)
     widest = int(np.argmax(gaps))
     detail = "" if covered >= _COVERAGE else "the log begins too late or ends too early"
     return (
