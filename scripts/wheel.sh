@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Builds dist/*.tar.gz and one self-contained wheel for each Python, and tests them where KDL and urdfdom are not.
 # Usage: scripts/wheel.sh [--no-test | --no-build] [PYTHON ...]     (python3.11 unless given; --no-build tests what lies
-# in dist; the tests need root for unshare). The first Python is tested with numpy 1.26 too.
+# in dist; the tests need root for unshare). The first Python is tested with numpy 1.26 too. TESTS names the files to
+# run instead of all of them.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=yes test=yes
+build=yes test=yes TESTS=${TESTS:-}
 [ "${1:-}" != --no-test ] || { test=no; shift; }
 [ "${1:-}" != --no-build ] || { build=no; shift; }
 pythons=("$@")
@@ -60,7 +61,8 @@ test_wheel() {
   rm -rf "$venv"
   "$python" -m venv "$venv"
   "$venv/bin/pip" install -q --disable-pip-version-check "$wheel[sim,plot,test]" "numpy==$numpy.*"
-  (cd "$root" && without_system_libraries "$venv/bin/python" -m pytest -q -p no:cacheprovider -x >"$venv.log" 2>&1) ||
+  # shellcheck disable=SC2086
+  (cd "$root" && without_system_libraries "$venv/bin/python" -m pytest -q -p no:cacheprovider $TESTS >"$venv.log" 2>&1) ||
     { tail -n 30 "$venv.log" >&2; fail "tests failed: see $venv.log"; }
   echo "ok  $(basename "$wheel"), numpy $numpy: $(tail -n 1 "$venv.log")"
 }

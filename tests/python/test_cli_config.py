@@ -43,6 +43,7 @@ def test_an_interrupted_run_leaves_nothing_half_written(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background jobs ignore it
     )
     maps = Path(f"/proc/{process.pid}/maps")
     while "pybullet" not in maps.read_text():  # in the middle of its work
