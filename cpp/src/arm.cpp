@@ -8,6 +8,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 #include <sstream>
 
+#include "detail/checks.hpp"
 #include "detail/kdl_forward.hpp"
 #include "detail/urdf_chain.hpp"
 
@@ -22,14 +23,6 @@ std::string read_text(const std::string& path) {
   text << file.rdbuf();
   if (!file) throw FileError("'" + path + "': the file can not be read.");
   return text.str();
-}
-
-void check_joints(Eigen::Index count, const Eigen::VectorXd& q, const std::string& name) {
-  if (q.size() != count)
-    throw InvalidArgument(name + ": " + std::to_string(q.size()) + " values, expected " +
-                          std::to_string(count) + ", one for each joint.");
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (!std::isfinite(q[i])) throw InvalidArgument(name + "[" + std::to_string(i) + "]: not finite.");
 }
 
 Eigen::Matrix4d matrix_of(const detail::Frame& frame) {
@@ -104,7 +97,7 @@ const std::string& Arm::folder() const { return model_->folder; }
 
 // The chain is shared between threads, the KDL solvers are not: each call has its own (see ChainModel).
 Eigen::Matrix4d Arm::forward_kinematics(const Eigen::VectorXd& q) const {
-  check_joints(joint_count(), q, "q");
+  detail::check_joints(q, joint_count(), "q");
   return matrix_of(detail::KdlForward(*model_)(q));
 }
 
@@ -112,14 +105,14 @@ Poses Arm::forward_kinematics(const RowMatrix& q) const {
   detail::KdlForward forward(*model_);
   Poses poses;
   for (Eigen::Index k = 0; k < q.rows(); ++k) {
-    check_joints(joint_count(), q.row(k), "q[" + std::to_string(k) + "]");
+    detail::check_joints(q.row(k), joint_count(), "q[" + std::to_string(k) + "]");
     poses.push_back(matrix_of(forward(q.row(k).transpose())));
   }
   return poses;
 }
 
 Eigen::MatrixXd Arm::jacobian(const Eigen::VectorXd& q) const {
-  check_joints(joint_count(), q, "q");
+  detail::check_joints(q, joint_count(), "q");
   const auto count = static_cast<unsigned>(model_->couplings.size());
   KDL::ChainJntToJacSolver solver(model_->chain);
   KDL::JntArray joints(count);

@@ -19,8 +19,7 @@ detail::Frame checked_target(const Eigen::Matrix4d& pose) {
 }
 
 detail::Joints checked_seed(const Eigen::VectorXd& seed, const detail::JointRange& range) {
-  if (seed.size() != range.lower.size() || !seed.allFinite())
-    throw InvalidArgument("seed: expected " + std::to_string(range.lower.size()) + " finite values.");
+  detail::check_joints(seed, range.lower.size(), "seed");
   return detail::Joints(seed).cwiseMax(range.lower).cwiseMin(range.upper);
 }
 

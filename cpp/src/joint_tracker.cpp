@@ -63,9 +63,7 @@ struct JointTracker::State {
 JointTracker::JointTracker(Arm arm, const Eigen::VectorXd& start, const TrackOptions& options) {
   check(arm, options);
   state_ = std::make_unique<State>(std::move(arm), options);
-  if (!state_->accepts(start))
-    throw InvalidArgument("start: expected " + std::to_string(this->arm().joint_count()) +
-                          " finite values within the joint limits.");
+  detail::check_within_limits(start, this->arm(), "start");
   state_->stand_at(start);
 }
 JointTracker::JointTracker(const JointTracker& other)
@@ -88,7 +86,7 @@ IkStatus JointTracker::track(const Eigen::Matrix4d& pose, double dt) noexcept {
   if (!(dt > 0.0) || !std::isfinite(dt) || !detail::is_rigid(pose)) return IkStatus::invalid_input;
   const detail::Frame target = detail::rigid_frame(pose);
   const detail::Joints step = s.arm.velocity_limit() * dt;
-  const detail::Descent next = s.tracker.advance(s.at, target, step, s.pull);
+  const detail::Descent next = s.tracker.advance(s.at, target, step, s.velocity * dt, s.pull);
   const IkStatus status = s.tracker.verdict(s.at, next, target, step);
   s.velocity = (next.joints - s.joints) / dt;
   s.joints = next.joints;

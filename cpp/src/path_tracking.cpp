@@ -43,26 +43,13 @@ void check_path(const Eigen::VectorXd& times, const Poses& poses) {
   }
 }
 
-void check_options(const FollowOptions& options, const detail::JointRange& range) {
-  const auto positive = [](double value, const char* name) {
-    if (!(value > 0.0))
-      throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(value) +
-                            ", expected > 0.");
-  };
-  positive(options.max_step, "max_step");
-  positive(options.anchors, "anchors");
-  positive(options.starts, "starts");
-  positive(options.position_tolerance, "position_tolerance");
-  positive(options.angle_tolerance, "angle_tolerance");
-  if (!options.start) return;
-  if (options.start->size() != range.lower.size() || !options.start->allFinite())
-    throw InvalidArgument("options.start: expected " + std::to_string(range.lower.size()) +
-                          " finite values.");
-  for (Eigen::Index i = 0; i < range.lower.size(); ++i)
-    if ((*options.start)[i] < range.lower[i] || (*options.start)[i] > range.upper[i])
-      throw InvalidArgument(at("options.start", i) + std::to_string((*options.start)[i]) +
-                            ", expected within the limits " + std::to_string(range.lower[i]) + " to " +
-                            std::to_string(range.upper[i]) + ".");
+void check_options(const FollowOptions& options, const Arm& arm) {
+  detail::check_positive(options.max_step, "options.max_step");
+  detail::check_positive(options.anchors, "options.anchors");
+  detail::check_positive(options.starts, "options.starts");
+  detail::check_positive(options.position_tolerance, "options.position_tolerance");
+  detail::check_positive(options.angle_tolerance, "options.angle_tolerance");
+  if (options.start) detail::check_within_limits(*options.start, arm, "options.start");
 }
 
 detail::TargetPath target_path(const Eigen::VectorXd& times, const Poses& poses, const FollowOptions& options,
@@ -177,7 +164,7 @@ JointTrajectory JointTrajectory::through(const Eigen::VectorXd& times, const Row
 JointTrajectory InverseKinematics::follow(const Eigen::VectorXd& times, const Poses& poses,
                                           const FollowOptions& options) {
   check_path(times, poses);
-  check_options(options, solver_->search.range());
+  check_options(options, arm());
   const detail::TargetPath path = target_path(times, poses, options, arm().velocity_limit());
   const detail::Tolerances tolerances = {options.position_tolerance, options.angle_tolerance,
                                          solver_->search.lm().goal()};

@@ -39,7 +39,8 @@ IkStatus track(JointTracker& tracker, const Array& pose, double dt) {
 
 void set_joints(JointTracker& tracker, const Array& q) {
   if (tracker.set_joints(to_vector(q, "joints")) == IkStatus::invalid_input)
-    throw InvalidArgument("joints: expected " + std::to_string(tracker.arm().joint_count()) +
+    throw InvalidArgument("joints: " + std::to_string(q.size()) + " values, expected " +
+                          std::to_string(tracker.arm().joint_count()) +
                           " finite values within the joint limits.");
 }
 

@@ -265,7 +265,8 @@ Eigen::VectorXd seed_or_middle(const InverseKinematics& ik, const std::optional<
   if (!seed) return ik.middle();
   const Eigen::VectorXd q = to_vector(*seed, "seed");
   if (q.size() != ik.arm().joint_count() || !q.allFinite())
-    throw InvalidArgument("seed: expected " + std::to_string(ik.arm().joint_count()) + " finite values.");
+    throw InvalidArgument("seed: " + std::to_string(q.size()) + " values, expected " +
+                          std::to_string(ik.arm().joint_count()) + ", one for each joint, all finite.");
   return q;
 }
 

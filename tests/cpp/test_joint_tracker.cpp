@@ -54,6 +54,21 @@ TEST_CASE("A smooth path is met at every pose to 1e-6 m within the limits of pos
   }
 }
 
+TEST_CASE("Through a singularity the joints go on as they came, they do not bounce off") {
+  const Arm arm = Arm::from_urdf(arms::two_link());
+  const auto posture = [](double s) {  // the elbow stretches and bends to the other side
+    return Eigen::VectorXd(Eigen::Vector2d(0.3 + 0.9 * s, 0.8 * std::cos(3.14159265 * s)));
+  };
+  dmp::TrackOptions place;
+  place.weight << 1, 1, 1, 0, 0, 0;
+  JointTracker tracker(arm, posture(0.0), place);
+  for (int k = 1; k <= 200; ++k) {
+    const Eigen::VectorXd q = posture(k / 200.0);
+    REQUIRE(tracker.track(arm.forward_kinematics(q), dt) == IkStatus::ok);
+    REQUIRE((tracker.joints() - q).cwiseAbs().maxCoeff() < 1e-4);  // lost to first order where stretched
+  }
+}
+
 TEST_CASE("The loop takes no memory, whether poses are met or not" * doctest::skip(!COUNTS_MALLOC)) {
   const Arm arm = seven_joints();
   JointTracker tracker(arm, home());

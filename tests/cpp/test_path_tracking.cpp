@@ -9,6 +9,7 @@
 
 using dmp::Arm;
 using dmp::FollowOptions;
+using dmp::IkOptions;
 using dmp::IkStatus;
 using dmp::InverseKinematics;
 using dmp::JointTrajectory;
@@ -184,6 +185,43 @@ TEST_CASE("Steps never exceed their bound, and a path that asks for more says so
   CHECK_FALSE(joints.report.complete());
   CHECK(joints.report.status[static_cast<std::size_t>(joints.report.missed[0].first)] ==
         IkStatus::step_limited);
+}
+
+TEST_CASE("On the way through a singularity joints go on as they came, they do not bounce off") {
+  RowMatrix q(200, 2);  // the elbow stretches and bends to the other side
+  for (Eigen::Index k = 0; k < 200; ++k) {
+    const double s = static_cast<double>(k) / 199.0;
+    q.row(k) << 0.3 + 0.9 * s, 0.8 * std::cos(3.14159265 * s);
+  }
+  IkOptions place;
+  place.weight << 1, 1, 1, 0, 0, 0;
+  FollowOptions from;
+  from.start = q.row(0).transpose();
+  InverseKinematics ik(two_link(), place);
+  const Poses poses = two_link().forward_kinematics(q);
+  const JointTrajectory joints = ik.follow(seconds(200, 4.0), poses, from);
+  CHECK(joints.report.complete());
+  CHECK((joints.position - q).cwiseAbs().maxCoeff() < 1e-4);  // the elbow is lost to first order, stretched
+  const double gentle = JointTrajectory::through(joints.time, q).acceleration.cwiseAbs().maxCoeff();
+  CHECK(ik.follow(joints.time, poses).acceleration.cwiseAbs().maxCoeff() < 2.0 * gentle);
+}
+
+// Seven joints come from anywhere to anywhere in the end: a search that forgot the steps would go on for
+// long.
+TEST_CASE("A sparse path with poses further apart than the steps allow is given up, and says why") {
+  const Arm arm = seven_joints();
+  std::mt19937 random(13);
+  const Poses poses = arm.forward_kinematics(far_swing(arm, random, 61));
+  InverseKinematics ik(arm);
+  FollowOptions options;
+  options.max_step = 0.4;
+  CHECK(ik.follow(seconds(61, 8.0), poses, options).report.complete());
+  options.max_step = 0.02;
+  const JointTrajectory joints = ik.follow(seconds(61, 8.0), poses, options);
+  CHECK(largest_step(joints.position) <= 0.02 + 1e-12);
+  REQUIRE_FALSE(joints.report.complete());
+  for (const IkStatus status : joints.report.status)
+    CHECK((status == IkStatus::ok || status == IkStatus::step_limited));
 }
 
 TEST_CASE("The timing plays no part unless respect_velocity asks for it") {

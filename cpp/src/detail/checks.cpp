@@ -40,6 +40,23 @@ void check_weight(const Vector6& weight) {
     throw InvalidArgument("options.weight: two turns are free; expected none, one or all three.");
 }
 
+void check_joints(const Eigen::VectorXd& q, Eigen::Index count, const std::string& name) {
+  if (q.size() != count)
+    throw InvalidArgument(name + ": " + std::to_string(q.size()) + " values, expected " +
+                          std::to_string(count) + ", one for each joint.");
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (!std::isfinite(q[i])) throw InvalidArgument(name + "[" + std::to_string(i) + "]: not finite.");
+}
+
+void check_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::string& name) {
+  check_joints(q, arm.joint_count(), name);
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    if (q[i] < arm.lower()[i] || q[i] > arm.upper()[i])
+      throw InvalidArgument(name + "[" + std::to_string(i) + "]: " + std::to_string(q[i]) +
+                            ", expected within the limits " + std::to_string(arm.lower()[i]) + " to " +
+                            std::to_string(arm.upper()[i]) + ".");
+}
+
 bool is_rigid(const Eigen::Matrix4d& pose) {
   const Eigen::Matrix3d r = pose.topLeftCorner<3, 3>();
   return pose.allFinite() && skewness(r) <= 1e-3 && r.determinant() > 0.0 &&

@@ -14,14 +14,30 @@ constexpr int iterations_each = 60;
 constexpr double least_damping = 1e-12;
 constexpr double no_wish = 1e-12;      // m^2 or m rad, a gradient of 0
 constexpr double at_a_side = 1e-9;     // rad or m
+constexpr double run_up = 0.2;         // s, in which a joint may come from rest to its velocity limit
 constexpr double near_a_limit = 0.05;  // rad or m, from where on a smaller margin counts against a route
+constexpr double abrupt = 0.5;   // of the drift, by which a step may differ from it without a second look
+constexpr double clearly = 0.5;  // of a difference, below which another counts as smaller
+
+double largest(const Joints& way) { return way.cwiseAbs().maxCoeff(); }
+
+// The step to sample `to` that would go on as the joints came in the direction; zero where they begin.
+Joints drift_to(const TargetPath& path, const std::vector<Joints>& joints, std::size_t to, int direction) {
+  const std::size_t from = direction > 0 ? to - 1 : to + 1;
+  const bool begins = direction > 0 ? from == 0 : from + 1 == joints.size();
+  const std::size_t before = begins ? from : direction > 0 ? from - 1 : from + 1;
+  if (begins || joints[before].size() == 0) return Joints::Zero(joints[from].size());
+  const double pace = (path.time[to] - path.time[from]) / (path.time[from] - path.time[before]);
+  return pace * (joints[from] - joints[before]);
+}
 
 }  // namespace
 
 bool Route::better_than(const Route& other) const {
   if (miss != other.miss) return miss < other.miss;
   const auto burden = [](const Route& route) {
-    return route.velocity_ratio * (2.0 - std::min(route.margin / near_a_limit, 1.0));
+    return std::max(route.velocity_ratio, std::sqrt(route.acceleration_ratio)) *
+           (2.0 - std::min(route.margin / near_a_limit, 1.0));
   };
   return burden(*this) < burden(other);
 }
@@ -70,13 +86,32 @@ Joints PathTracker::pulled(const Descent& at, const Frame& target, const Box& bo
                          {box.lower - away, box.upper - away});
 }
 
-Descent PathTracker::advance(const Descent& at, const Frame& target, const Joints& step, double pull) const {
-  const Joints lower = range_.lower.cwiseMax(at.joints - step),
-               upper = range_.upper.cwiseMin(at.joints + step);
+Descent PathTracker::nearest(const Descent& at, const Frame& target, const Joints& lower, const Joints& upper,
+                             double pull) const {
   if (!(pull > 0.0) || !met(at.error)) return lm_.descend_from(at, target, lower, upper, iterations_each);
   const Joints way = pulled(at, target, {lower - at.joints, upper - at.joints}, pull);
   const Joints start = (at.joints + way).cwiseMax(lower).cwiseMin(upper);
   return lm_.descend(target, start, lower, upper, iterations_each);
+}
+
+Descent PathTracker::advance(const Descent& at, const Frame& target, const Joints& step, const Joints& drift,
+                             double pull) const {
+  const Joints lower = range_.lower.cwiseMax(at.joints - step),
+               upper = range_.upper.cwiseMin(at.joints + step);
+  const Joints straight = at.joints + drift;
+  const auto beyond = [&] {
+    return lm_.descend(target, straight.cwiseMax(lower).cwiseMin(upper), lower, upper, iterations_each);
+  };
+  const bool drifts = met(at.error) && !drift.isZero(0.0);
+  if (drifts && !has_null_space()) {
+    const Descent next = beyond();
+    if (next.converged) return next;
+  }
+  const Descent next = nearest(at, target, lower, upper, pull);
+  const double jump = largest(next.joints - straight);
+  if (!drifts || !has_null_space() || !(jump > abrupt * largest(drift))) return next;
+  const Descent other = beyond();
+  return other.converged && largest(other.joints - straight) < clearly * jump ? other : next;
 }
 
 IkStatus PathTracker::verdict(const Descent& at, const Descent& next, const Frame& target,
@@ -111,7 +146,7 @@ void PathTracker::walk(const TargetPath& path, Descent at, std::size_t from, int
        k += direction) {
     const auto now = static_cast<std::size_t>(k);
     const Joints& step = path.step[direction > 0 ? now - 1 : now];
-    at = advance(at, path.target[now], step, pull);
+    at = advance(at, path.target[now], step, drift_to(path, joints, now, direction), pull);
     joints[now] = at.joints;
     missed += miss(path.target[now], at.error);
   }
@@ -119,11 +154,17 @@ void PathTracker::walk(const TargetPath& path, Descent at, std::size_t from, int
 
 void PathTracker::rate(const TargetPath& path, Route& route) const {
   route.margin = range_.margin(route.joints.front());
+  Joints before;
   for (std::size_t k = 1; k < route.joints.size(); ++k) {
     const Joints speed = (route.joints[k] - route.joints[k - 1]) / (path.time[k] - path.time[k - 1]);
-    route.velocity_ratio =
-        std::max(route.velocity_ratio, speed.cwiseAbs().cwiseQuotient(velocity_limit_).maxCoeff());
+    const Joints share = speed.cwiseQuotient(velocity_limit_);
+    route.velocity_ratio = std::max(route.velocity_ratio, largest(share));
     route.margin = std::min(route.margin, range_.margin(route.joints[k]));
+    if (k > 1)
+      route.acceleration_ratio =
+          std::max(route.acceleration_ratio,
+                   run_up * largest(share - before) / (0.5 * (path.time[k] - path.time[k - 2])));
+    before = share;
   }
 }
 

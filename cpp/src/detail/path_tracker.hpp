@@ -20,9 +20,10 @@ struct TargetPath {
 /// Joints along a path, and what they are worth.
 struct Route {
   std::vector<Joints> joints;
-  double miss = 0.0;            ///< distances from the poses that are not met, summed
-  double velocity_ratio = 0.0;  ///< the largest step / time / velocity limit
-  double margin = 0.0;          ///< rad or m, the smallest distance from a limit
+  double miss = 0.0;                ///< distances from the poses that are not met, summed
+  double velocity_ratio = 0.0;      ///< the largest step / time / velocity limit
+  double acceleration_ratio = 0.0;  ///< the largest acceleration / (velocity limit / 0.2 s)
+  double margin = 0.0;              ///< rad or m, the smallest distance from a limit
 
   bool complete() const { return miss == 0.0; }
   bool better_than(const Route& other) const;
@@ -40,8 +41,10 @@ class PathTracker {
   Route track(const TargetPath& path, std::size_t anchor, const Joints& joints, double pull) const;
   /// The closest joints to the first pose that `start` allows, then onwards.
   Route track_from(const TargetPath& path, const Joints& start, double pull) const;
-  /// From joints that met one pose to the next, each joint by at most `step`.
-  Descent advance(const Descent& at, const Frame& target, const Joints& step, double pull) const;
+  /// From joints that met one pose to the next, each joint by at most `step`. `drift` is the way that would
+  /// go on as the joints came, zero if they stood: where two ways meet, as at a singularity, it decides.
+  Descent advance(const Descent& at, const Frame& target, const Joints& step, const Joints& drift,
+                  double pull) const;
   /// Why `next`, one step on from `at`, misses the target; ok if it does not. Takes no memory.
   IkStatus verdict(const Descent& at, const Descent& next, const Frame& target, const Joints& step) const;
   /// The descent that begins and ends at the joints q.
@@ -57,6 +60,8 @@ class PathTracker {
   void rate(const TargetPath& path, Route& route) const;
 
  private:
+  Descent nearest(const Descent& at, const Frame& target, const Joints& lower, const Joints& upper,
+                  double pull) const;
   Joints pulled(const Descent& at, const Frame& target, const Box& box, double pull) const;
   void walk(const TargetPath& path, Descent at, std::size_t from, int direction, double pull,
             std::vector<Joints>& joints, double& miss) const;
