@@ -305,6 +305,21 @@ TEST_CASE("KDL's own solvers answer through the same search, held to the same li
   }
 }
 
+TEST_CASE("Limits so wide that they are none do not send the search to where angles have no digits left") {
+  const Arm narrow = seven_joints();
+  const Eigen::VectorXd wide = Eigen::VectorXd::Constant(7, 1e16);
+  const Arm arm = narrow.with_limits({-wide, wide, {}, {}});
+  InverseKinematics ik(arm);
+  CHECK(ik.middle().isZero(0.0));
+  std::mt19937 random(14);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(narrow, random));
+    const IkResult found = ik.solve(pose);
+    CHECK(found.ok());
+    CHECK(found.joints.cwiseAbs().maxCoeff() < 100.0);
+  }
+}
+
 TEST_CASE("KDL's solvers that diverge leave finite joints within the limits") {
   dmp::IkOptions options;
   options.backend = dmp::IkBackend::kdl_nr_jl;

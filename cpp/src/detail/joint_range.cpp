@@ -1,11 +1,16 @@
 #include "joint_range.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dmp::detail {
 namespace {
 constexpr double pi = 3.14159265358979323846;
-}
+constexpr double widest =
+    1e3;  // rad or m, from where on a range is none: exporters write 1e16 for "no limit"
+
+bool is_bounded(double lower, double upper) { return upper - lower < widest; }
+}  // namespace
 
 JointRange::JointRange(const ChainModel& model)
     : lower(model.lower), upper(model.upper), turns(static_cast<std::size_t>(model.lower.size()), true) {
@@ -22,7 +27,7 @@ JointRange::JointRange(const ChainModel& model)
 Joints JointRange::middle() const {
   Joints q(lower.size());
   for (Eigen::Index i = 0; i < q.size(); ++i)
-    q[i] = std::isfinite(lower[i]) && std::isfinite(upper[i]) ? 0.5 * (lower[i] + upper[i]) : 0.0;
+    q[i] = is_bounded(lower[i], upper[i]) ? 0.5 * (lower[i] + upper[i]) : std::clamp(0.0, lower[i], upper[i]);
   return q;
 }
 
@@ -45,8 +50,10 @@ Joints JointRange::nearest_winding(Joints q, const Joints& seed, const Joints& l
 FiniteRange::FiniteRange(const Joints& lowest, const Joints& highest, const Joints& center)
     : lower(lowest), upper(highest) {
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
-    if (!std::isfinite(lower[i])) lower[i] = std::min(center[i], upper[i]) - pi;
-    if (!std::isfinite(upper[i])) upper[i] = std::max(center[i], lower[i]) + pi;
+    if (is_bounded(lower[i], upper[i])) continue;
+    const double middle = std::clamp(center[i], lower[i], upper[i]);
+    lower[i] = std::max(lower[i], middle - pi);
+    upper[i] = std::min(upper[i], middle + pi);
   }
 }
 

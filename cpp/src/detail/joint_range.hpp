@@ -13,7 +13,7 @@ struct JointRange {
   Joints lower, upper;
   std::vector<bool> turns;  ///< a turn by 2 pi leaves the tip where it is
 
-  /// The middle of each range; 0 for a joint without one.
+  /// The middle of each range; for a joint without one, or as good as without, 0 if it may stand there.
   Joints middle() const;
   /// The distance from the nearest limit; infinity if no joint has one.
   double margin(const Joints& q) const;
@@ -21,7 +21,7 @@ struct JointRange {
   Joints nearest_winding(Joints q, const Joints& seed, const Joints& lowest, const Joints& highest) const;
 };
 
-/// [lower, upper], with sides at infinity replaced by half a turn around `center`.
+/// [lower, upper], or half a turn around `center` of it where it is infinite or as good as that.
 struct FiniteRange {
   FiniteRange(const Joints& lower, const Joints& upper, const Joints& center);
   Joints lower, upper;
