@@ -188,6 +188,25 @@ TEST_CASE("Limits of zero velocity or effort count as not stated, with a warning
   CHECK(arm.warnings().size() == 2);
 }
 
+TEST_CASE("A limit of which one half is stated is a warning that names the joint and the half") {
+  const Arm arm = Arm::from_urdf(one_joint(
+      {"", R"(<axis xyz="0 0 1"/>)", "revolute", R"(<limit upper="2" velocity="3" effort="50"/>)"}));
+  CHECK(arm.lower()[0] == 0.0);
+  REQUIRE(arm.warnings().size() == 1);
+  CHECK(arm.warnings()[0] == "joint 'joint1': its <limit> states no lower, which counts as 0.");
+}
+
+TEST_CASE("What urdfdom could not read and left out is a warning in its words") {
+  std::string text = arms::two_link();
+  text.replace(text.find(R"(<link name="link1"/>)"), 20,
+               R"(<link name="link1"><inertial><mass value="1"/><inertia ixx="much" ixy="0" ixz="0" iyy="1"
+                  iyz="0" izz="1"/></inertial></link>)");
+  const Arm arm = Arm::from_urdf(text);
+  REQUIRE(arm.warnings().size() == 1);
+  CHECK(arm.warnings()[0].find("urdfdom: ") == 0);
+  CHECK(arm.warnings()[0].find("link1") != std::string::npos);
+}
+
 TEST_CASE("An impossible inertia is a warning that names the link") {
   std::string text = arms::two_link();
   text.replace(

@@ -246,10 +246,23 @@ void warn_of_inertia(const urdf::Link& link, std::vector<std::string>& warnings)
                        "': no body has this mass and inertia; kinematics ignore them, a simulator may not.");
 }
 
+// What urdfdom passes over: parts that it could not read, and limits of which one half is stated.
+void warn_of_what_is_missing(const ParsedUrdf& parsed, const UrdfPath& path,
+                             std::vector<std::string>& warnings) {
+  if (!parsed.complaints.empty()) warnings.push_back("urdfdom: " + parsed.complaints);
+  for (const auto& joint : path) {
+    const auto missing = parsed.missing.find(joint->name);
+    if (missing != parsed.missing.end() && joint->type != urdf::Joint::CONTINUOUS)
+      warnings.push_back("joint '" + joint->name + "': its <limit> states no " + missing->second +
+                         ", which counts as 0.");
+  }
+}
+
 }  // namespace
 
 ChainModel read_urdf(const std::string& text, const std::string& base, const std::string& tip) {
-  const urdf::ModelInterfaceSharedPtr urdf = parse_urdf(text);
+  const ParsedUrdf parsed = parse_urdf(text);
+  const urdf::ModelInterfaceSharedPtr urdf = parsed.model;
   ChainModel model;
   model.name = urdf->getName();
   model.base = base.empty() ? urdf->getRoot()->name : base;
@@ -258,6 +271,7 @@ ChainModel read_urdf(const std::string& text, const std::string& base, const std
   find_link(*urdf, model.tip, "tip");
   const UrdfPath path = path_between(*urdf, model.base, model.tip);
   read_joints(path, model);
+  warn_of_what_is_missing(parsed, path, model.warnings);
   model.chain = chain_of(path, *urdf);
   for (const auto& joint : path) warn_of_inertia(*urdf->getLink(joint->child_link_name), model.warnings);
   model.urdf = text;

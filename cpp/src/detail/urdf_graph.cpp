@@ -7,8 +7,6 @@
 #include <dmp/error.hpp>
 #include <mutex>
 
-#include "urdf_scan.hpp"
-
 namespace dmp::detail {
 namespace {
 
@@ -50,18 +48,19 @@ std::string listed(std::vector<std::string> names) {
 
 }  // namespace
 
-urdf::ModelInterfaceSharedPtr parse_urdf(const std::string& text) {
-  scan_urdf(text);
+ParsedUrdf parse_urdf(const std::string& text) {
+  ParsedUrdf parsed;
+  parsed.missing = scan_urdf(text);
   CapturedLog log;
-  urdf::ModelInterfaceSharedPtr model;
   try {
-    model = urdf::parseURDF(text);
+    parsed.model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
     throw InvalidArgument(std::string("urdf: ") + error.what());
   }
-  if (!model || !model->getRoot())
+  if (!parsed.model || !parsed.model->getRoot())
     throw InvalidArgument("urdf: refused by urdfdom: " + (log.text().empty() ? "no root link." : log.text()));
-  return model;
+  parsed.complaints = log.text();
+  return parsed;
 }
 
 urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std::string& name,

@@ -6,12 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "urdf_scan.hpp"
+
 namespace dmp::detail {
 
 using UrdfPath = std::vector<urdf::JointConstSharedPtr>;
 
+/// A URDF that urdfdom has read, and what it said of it or did not.
+struct ParsedUrdf {
+  urdf::ModelInterfaceSharedPtr model;
+  std::string complaints;  ///< of urdfdom, about parts that it left out
+  MissingLimits missing;
+};
+
 /// The links and joints of a URDF. Throws InvalidArgument with the words of urdfdom, which prints nothing.
-urdf::ModelInterfaceSharedPtr parse_urdf(const std::string& text);
+ParsedUrdf parse_urdf(const std::string& text);
 
 /// The link of that name; else InvalidArgument, naming the argument and listing the links that exist.
 urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std::string& name,

@@ -41,6 +41,7 @@ class Scanner {
     }
   }
   const Parents& parents() const { return parents_; }
+  const MissingLimits& missing() const { return missing_; }
 
  private:
   void take(const std::string& tag) {
@@ -57,13 +58,19 @@ class Scanner {
 
   void open(const std::string& tag) {
     const std::string kind = tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1);
+    if (kind == "limit") take_limit(attribute(tag, "lower"), attribute(tag, "upper"));
     if (kind == "joint") {
-      above_ = {attribute(tag, "name"), ""};
+      joint_ = attribute(tag, "name");
+      above_ = {joint_, ""};
       child_.clear();
     }
     if (kind == "parent") above_.link = attribute(tag, "link");
     if (kind == "child") child_ = attribute(tag, "link");
     if (!child_.empty() && !above_.link.empty()) add();
+  }
+
+  void take_limit(const std::string& lower, const std::string& upper) {
+    if (lower.empty() != upper.empty()) missing_[joint_] = lower.empty() ? "lower" : "upper";
   }
 
   void add() {
@@ -77,8 +84,9 @@ class Scanner {
 
   int depth_ = 0;
   Parent above_;
-  std::string child_;
+  std::string joint_, child_;
   Parents parents_;
+  MissingLimits missing_;
 };
 
 void refuse_cycles(const Parents& parents) {
@@ -98,11 +106,12 @@ void refuse_cycles(const Parents& parents) {
 
 }  // namespace
 
-void scan_urdf(const std::string& text) {
+MissingLimits scan_urdf(const std::string& text) {
   if (text.size() > largest_text) throw InvalidArgument("urdf: larger than 64 MiB.");
   Scanner scanner;
   scanner.read(text);
   refuse_cycles(scanner.parents());
+  return scanner.missing();
 }
 
 }  // namespace dmp::detail
