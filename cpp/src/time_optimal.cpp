@@ -59,7 +59,8 @@ class Timing {
         u_(path_parameter(joints, slowness(limits.velocity))),
         path_(JointTrajectory::through(u_, joints.position)),
         timing_(u_, largest_speeds()) {
-    if (dynamics_) hold();
+    if (dynamics_)
+      holding_ = detail::holding_efforts(*dynamics_, joints.position, *limits.effort, "limits.effort");
     for (Eigen::Index k = 0; k < u_.size(); ++k) add_rows(k);
   }
 
@@ -94,19 +95,6 @@ class Timing {
         largest[k] = std::min(largest[k], speed * speed);
       }
     return largest;
-  }
-
-  void hold() {
-    holding_.resize(joints_.position.rows(), joints_.position.cols());
-    for (Eigen::Index k = 0; k < holding_.rows(); ++k) {
-      holding_.row(k) = dynamics_->holding(joints_.position.row(k)).transpose();
-      for (Eigen::Index i = 0; i < holding_.cols(); ++i)
-        if (!(std::abs(holding_(k, i)) < (*limits_.effort)[i]))
-          throw InvalidArgument("limits.effort[" + std::to_string(i) +
-                                "]: " + std::to_string((*limits_.effort)[i]) + ", but joint " +
-                                std::to_string(i) + " needs " + std::to_string(std::abs(holding_(k, i))) +
-                                " to stand still at positions[" + std::to_string(k) + "].");
-    }
   }
 
   void add_rows(Eigen::Index k) {
@@ -149,15 +137,7 @@ class Timing {
   Eigen::VectorXd squared_factors(const JointTrajectory& timed) const {
     Eigen::VectorXd square = detail::squared_factors(timed, limits_.velocity, limits_.acceleration);
     if (!dynamics_) return square;
-    for (Eigen::Index k = 0; k < square.size(); ++k) {
-      const Eigen::VectorXd moving =
-          dynamics_->moving(timed.position.row(k), timed.velocity.row(k), timed.acceleration.row(k));
-      for (Eigen::Index i = 0; i < moving.size(); ++i) {
-        const double room = (*limits_.effort)[i] - std::copysign(1.0, moving[i]) * holding_(k, i);
-        square[k] = std::max(square[k], std::abs(moving[i]) / room);
-      }
-    }
-    return square;
+    return square.cwiseMax(detail::squared_effort_factors(*dynamics_, timed, holding_, *limits_.effort));
   }
 
   // Where the spline exceeds a limit, and beside it, less is allowed the next time.

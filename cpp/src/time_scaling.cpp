@@ -1,8 +1,10 @@
 #include <dmp/error.hpp>
 #include <dmp/time_scaling.hpp>
 
+#include <algorithm>
 #include <cmath>
 
+#include "detail/arm_dynamics.hpp"
 #include "detail/spline_extremes.hpp"
 #include "detail/text.hpp"
 
@@ -14,6 +16,22 @@ double duration_factor(const JointTrajectory& joints, const Eigen::VectorXd& vel
   detail::check_limit(acceleration_limit, joints.position.cols(), "acceleration_limit");
   if (joints.time.size() == 0) return 0.0;
   return std::sqrt(detail::squared_factors(joints, velocity_limit, acceleration_limit).maxCoeff());
+}
+
+double duration_factor(const Arm& arm, const JointTrajectory& joints, const Eigen::VectorXd& velocity_limit,
+                       const Eigen::VectorXd& acceleration_limit, const Eigen::VectorXd& effort_limit,
+                       const Eigen::Vector3d& gravity) {
+  if (joints.position.cols() != arm.joint_count())
+    throw InvalidArgument("joints: " + std::to_string(joints.position.cols()) + " columns, expected " +
+                          std::to_string(arm.joint_count()) + ", one for each joint of the arm.");
+  if (!gravity.allFinite()) throw InvalidArgument("gravity: not finite.");
+  detail::check_limit(effort_limit, arm.joint_count(), "effort_limit");
+  const double factor = duration_factor(joints, velocity_limit, acceleration_limit);
+  if (joints.time.size() == 0) return factor;
+  detail::ArmDynamics dynamics(arm.model(), gravity);
+  const RowMatrix holding = detail::holding_efforts(dynamics, joints.position, effort_limit, "effort_limit");
+  const double square = detail::squared_effort_factors(dynamics, joints, holding, effort_limit).maxCoeff();
+  return std::max(factor, std::sqrt(square));
 }
 
 JointTrajectory stretched(const JointTrajectory& joints, double factor) {

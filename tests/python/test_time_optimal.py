@@ -64,6 +64,26 @@ def test_efforts_hold_at_every_sample_by_pinocchios_inverse_dynamics():
     assert np.max(effort / limit) > 0.8
 
 
+def test_stretched_by_the_factor_the_greatest_effort_is_the_limit_by_pinocchios_inverse_dynamics():
+    pytest.importorskip("pybullet_data")
+    pinocchio = pytest.importorskip("pinocchio")
+    arm = arms.find("iiwa")
+    _, joints = random_motion(1)
+    model = pinocchio.buildModelFromXML(arm.urdf)
+    data = model.createData()
+    rest = np.zeros(7)
+    limit = 1.0 + 1.1 * np.abs([pinocchio.rnea(model, data, q, rest, rest) for q in joints.position]).max(axis=0)
+    factor = dmpcpp.duration_factor(joints, 100 * SPEED, 100 * ACCELERATION, limit, arm=arm)
+    slow = dmpcpp.stretched(joints, factor)
+    rows = zip(slow.position, slow.velocity, slow.acceleration, strict=True)
+    effort = np.abs([pinocchio.rnea(model, data, *row) for row in rows])
+    assert np.max(effort / limit) == pytest.approx(1.0, abs=1e-9)
+    with pytest.raises(ValueError, match=r"effort_limit\[.\].*stand still"):
+        dmpcpp.duration_factor(joints, SPEED, ACCELERATION, np.full(7, 1e-3), arm=arm)
+    with pytest.raises(ValueError, match="needs an arm"):
+        dmpcpp.duration_factor(joints, SPEED, ACCELERATION, limit)
+
+
 def test_limits_that_are_none_are_value_errors():
     _, joints = random_motion(0)
     with pytest.raises(ValueError, match=r"velocity\[0\]"):

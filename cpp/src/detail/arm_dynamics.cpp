@@ -1,5 +1,9 @@
 #include "arm_dynamics.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <dmp/error.hpp>
+
 #include "kdl_forward.hpp"
 
 namespace dmp::detail {
@@ -47,6 +51,35 @@ Eigen::VectorXd ArmDynamics::holding(const Eigen::VectorXd& q) {
 Eigen::VectorXd ArmDynamics::moving(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
                                     const Eigen::VectorXd& acceleration) {
   return effort(weightless_, q, velocity, acceleration);
+}
+
+RowMatrix holding_efforts(ArmDynamics& dynamics, const RowMatrix& positions, const Eigen::VectorXd& limit,
+                          const std::string& name) {
+  RowMatrix holding(positions.rows(), positions.cols());
+  for (Eigen::Index k = 0; k < holding.rows(); ++k) {
+    holding.row(k) = dynamics.holding(positions.row(k)).transpose();
+    for (Eigen::Index i = 0; i < holding.cols(); ++i)
+      if (!(std::abs(holding(k, i)) < limit[i]))
+        throw InvalidArgument(name + "[" + std::to_string(i) + "]: " + std::to_string(limit[i]) +
+                              ", but joint " + std::to_string(i) + " needs " +
+                              std::to_string(std::abs(holding(k, i))) + " to stand still at positions[" +
+                              std::to_string(k) + "].");
+  }
+  return holding;
+}
+
+Eigen::VectorXd squared_effort_factors(ArmDynamics& dynamics, const JointTrajectory& joints,
+                                       const RowMatrix& holding, const Eigen::VectorXd& limit) {
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(joints.time.size());
+  for (Eigen::Index k = 0; k < square.size(); ++k) {
+    const Eigen::VectorXd moving =
+        dynamics.moving(joints.position.row(k), joints.velocity.row(k), joints.acceleration.row(k));
+    for (Eigen::Index i = 0; i < moving.size(); ++i) {
+      const double room = limit[i] - std::copysign(1.0, moving[i]) * holding(k, i);
+      square[k] = std::max(square[k], std::abs(moving[i]) / room);
+    }
+  }
+  return square;
 }
 
 }  // namespace dmp::detail

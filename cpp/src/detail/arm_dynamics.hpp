@@ -1,6 +1,8 @@
 #pragma once
 
+#include <dmp/path_tracking.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
+#include <string>
 
 #include "chain_model.hpp"
 
@@ -26,5 +28,15 @@ class ArmDynamics {
   KDL::JntArray position_, velocity_, acceleration_, effort_;
   KDL::Wrenches nothing_;
 };
+
+/// (T x n) N m or N that hold the arm still at each sample. InvalidArgument where the limit `name` (n) does
+/// not even allow that.
+RowMatrix holding_efforts(ArmDynamics& dynamics, const RowMatrix& positions, const Eigen::VectorXd& limit,
+                          const std::string& name);
+
+/// (T) The square of the smallest factor on the time with which each sample stays within the effort limit:
+/// what moves the arm falls with the square, what holds it (`holding`) stays.
+Eigen::VectorXd squared_effort_factors(ArmDynamics& dynamics, const JointTrajectory& joints,
+                                       const RowMatrix& holding, const Eigen::VectorXd& limit);
 
 }  // namespace dmp::detail

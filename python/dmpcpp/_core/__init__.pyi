@@ -1754,9 +1754,14 @@ def average(models: collections.abc.Sequence[PoseDmp]) -> PoseDmp:
     """
     The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
     """
-def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], effort_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, *, arm: Arm | None = None, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = [0.0, 0.0, -9.81]) -> float:
     """
-    The smallest factor on the duration with which the joints' spline stays within the limits (n,) and (n,).
+    The smallest factor on the duration with which the joints' spline stays within the limits.
+    
+    Velocity [rad/s] and acceleration limits [rad/s^2], (n,) each, are looked at between the samples too; effort limits (n,)
+    [N m], for which the arm is needed, at the samples, by KDL's inverse dynamics with `gravity` (3,) [m/s^2] in the base
+    frame. 0 if nothing moves. Raises InvalidArgument for limits of other sizes or signs, or an effort with which the arm
+    can not stand still.
     """
 def frechet(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
     """
