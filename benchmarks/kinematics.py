@@ -1,10 +1,11 @@
 """What dmpcpp's kinematics are worth, measured beside other packages in one run.
 
     python -m benchmarks.kinematics [--parts poses,track,paths,causes,timing,threads] [--arms panda,iiwa,xarm6,ur5]
-                                    [--poses 10000] [--paths 20] [--causes 20]
+                                    [--poses 10000] [--paths 20] [--causes 20] [--seed 0]
 
-Fixed seeds; times are CPU time of this process. Every error is computed from the arm's forward kinematics (KDL). The
-arms' URDFs come with PyBullet, the ur5's with example-robot-data (extra `bench`, as the other packages).
+Fixed seeds, others with --seed; times are CPU time of this process. Every error is computed from the arm's forward
+kinematics (KDL). The arms' URDFs come with PyBullet, the ur5's with example-robot-data (extra `bench`, as the other
+packages).
 
 The rule for feasible paths: the joints pass through four random postures on a cubic spline with ends at rest, inside
 90 % of every range; each posture lies the share `reach` of the way from the one before to a uniformly random one (0.35
@@ -38,9 +39,9 @@ def seconds_of(work: Callable[[], object]) -> float:
     return time.process_time() - begin
 
 
-def single_poses(name: str, arm: Arm, urdf: str, count: int) -> None:
+def single_poses(name: str, arm: Arm, urdf: str, count: int, seed: int) -> None:
     """Random reachable poses from random seeds, one call each; peers get the first tenth of them."""
-    random = np.random.default_rng(1)
+    random = np.random.default_rng(1 + seed)
     poses = arm.forward_kinematics(random_joints(arm, random, count))
     seeds = random_joints(arm, random, count)
     median, late = _solve_all(name, "dmpcpp", arm, peers.ours(arm), poses, seeds)
@@ -119,9 +120,9 @@ def _follow_with(solve: peers.Solver, poses: Array, start: Array) -> tuple[float
     return (time.process_time() - begin) / len(poses), joints
 
 
-def feasible_paths(name: str, arm: Arm, reach: float, count: int) -> None:
+def feasible_paths(name: str, arm: Arm, reach: float, count: int, seed: int) -> None:
     """The share of feasible paths that are followed whole."""
-    random = np.random.default_rng(2)
+    random = np.random.default_rng(2 + seed)
     solver = InverseKinematics(arm)
     complete, times = 0, []
     for _ in range(count):
@@ -138,13 +139,18 @@ def feasible_paths(name: str, arm: Arm, reach: float, count: int) -> None:
     )
 
 
-def unreachable(name: str, arm: Arm, count: int) -> None:
+def _both_kinds(name: str, arm: Arm, count: int, seed: int) -> None:
+    for reach in (0.35, 0.8):
+        feasible_paths(name, arm, reach, count, seed)
+
+
+def unreachable(name: str, arm: Arm, count: int, seed: int) -> None:
     """Whether the cause is named, the limits are held, and the joints are the closest that 500 restarts know."""
     for kind in ("beyond", "limits", "step", "singular"):
         if kind == "limits" and not causes.has_narrow_joint(arm):
             print(f"{name:6} limits    none: every joint of this arm turns all the way round")
             continue
-        random = np.random.default_rng(7)
+        random = np.random.default_rng(7 + seed)
         right, broken, worst = 0, 0, 1.0
         for k, case in enumerate(islice(causes.cases(arm, kind, random), count)):
             result = causes.answer(arm, case)
@@ -157,9 +163,9 @@ def unreachable(name: str, arm: Arm, count: int) -> None:
         print(f"{name:6} {kind:9} {right} of {count} causes right, {broken} limits broken{far}", flush=True)
 
 
-def timing(name: str, arm: Arm, count: int) -> None:
+def timing(name: str, arm: Arm, count: int, seed: int) -> None:
     """Time-optimal timing of splines through five random postures, 1000 samples, beside toppra's."""
-    random = np.random.default_rng(3)
+    random = np.random.default_rng(3 + seed)
     limit = arms.acceleration_limit(arm)
     ratios, ours, theirs, uniform, worst = [], [], [], [], 0.0
     for _ in range(count):
@@ -198,16 +204,18 @@ def main() -> None:
     parser.add_argument("--poses", type=int, default=10_000)
     parser.add_argument("--paths", type=int, default=20)
     parser.add_argument("--causes", type=int, default=20, help="of each of the four kinds, on each arm")
+    parser.add_argument("--seed", type=int, default=0, help="added to the seeds of poses, paths, causes and splines")
     chosen = parser.parse_args()
+    seed = chosen.seed
     print(peers.installed())
     for name in chosen.arms.split(","):
         arm, urdf = load(name)
         runs: dict[str, Callable[[], None]] = {
-            "poses": lambda: single_poses(name, arm, urdf, chosen.poses),  # noqa: B023 (run within the turn)
+            "poses": lambda: single_poses(name, arm, urdf, chosen.poses, seed),  # noqa: B023 (run within the turn)
             "track": lambda: tracking(name, arm, urdf),  # noqa: B023
-            "paths": lambda: [feasible_paths(name, arm, reach, chosen.paths) for reach in (0.35, 0.8)] and None,  # noqa: B023
-            "causes": lambda: unreachable(name, arm, chosen.causes),  # noqa: B023
-            "timing": lambda: timing(name, arm, 20),  # noqa: B023
+            "paths": lambda: _both_kinds(name, arm, chosen.paths, seed),  # noqa: B023
+            "causes": lambda: unreachable(name, arm, chosen.causes, seed),  # noqa: B023
+            "timing": lambda: timing(name, arm, 20, seed),  # noqa: B023
             "threads": lambda: threads(name, arm, 2_000),  # noqa: B023
         }
         for part in chosen.parts.split(","):
