@@ -93,12 +93,12 @@ def stated_columns(columns: object, place: Callable[[object], int], position_onl
     if not isinstance(columns, Mapping):
         raise InvalidArgument(f"columns: {columns!r}, expected a mapping from time, x, y, z, qx, .. to columns.")
     turn: tuple[str, ...] = ANGLES if any(name in columns for name in ANGLES) else QUATERNION
-    unknown = set(map(str, columns)) - {"time", *POSITION, *turn}
-    missing = [name for name in (*POSITION, *turn) if name not in columns]
-    if not unknown and missing == list(turn):
+    if set(columns) - {"time"} == set(POSITION):
         if not position_only:
             raise no_turn("the columns stated")
-        missing = []
+        turn = ()
+    unknown = set(map(str, columns)) - {"time", *POSITION, *turn}
+    missing = [name for name in (*POSITION, *turn) if name not in columns]
     if unknown or missing:
         wrong = f"unknown {', '.join(map(repr, sorted(unknown)))}" if unknown else f"missing {', '.join(missing)}"
         raise InvalidArgument(f"columns: {wrong}; expected time, {', '.join((*POSITION, *turn))}.")
