@@ -115,7 +115,7 @@ def _with_points(lines: list[tuple[int, str]], delimiter: str) -> tuple[list[tup
     if delimiter == ",":
         return lines, []
     cells = [cell.strip() for line, content in lines[:_LOOKED_AT] for cell in split(content, delimiter, line)]
-    numbers = [cell for cell in cells if _is_number(cell)]
-    if not any("," in cell for cell in numbers) or any("." in cell for cell in numbers):
+    numbers = " ".join(filter(_is_number, cells))
+    if "," not in numbers or "." in numbers:
         return lines, []
     return [(line, content.replace(",", ".")) for line, content in lines], ["decimal commas read as points"]
