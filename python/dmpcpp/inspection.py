@@ -38,7 +38,8 @@ class BodyReport:
     """What one body's recording is like; lengths in m, times in s, angles in rad.
 
     `noise_position` and `noise_angle` are standard deviations along and about one axis, see `motion.noise`; `extent` is
-    the range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples. `refused` says
+    the range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples; `steps` are the
+    least, the usual (median) and the largest time from one sample to the next. `refused` says
     why the body can not be read, and then nothing else is known.
     """
 
@@ -52,6 +53,7 @@ class BodyReport:
     noise_position: float = 0.0
     noise_angle: float = 0.0
     extent: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    steps: tuple[float, float, float] = (0.0, 0.0, 0.0)
     peak_speed: float = 0.0
     peak_turning: float = 0.0
     history: tuple[str, ...] = ()
@@ -217,6 +219,7 @@ def _report(recording: Recording) -> BodyReport:
         noise_position=noise.position,
         noise_angle=noise.angle,
         extent=_extent(position),
+        steps=_steps(recording.time),
         peak_speed=float((np.linalg.norm(np.diff(position, axis=0), axis=1) / steps).max()),
         peak_turning=float((turned / steps).max()),
         history=recording.history,
@@ -233,6 +236,11 @@ def _marker(markers: Markers, k: int) -> MarkerReport:
         noise_position=motion.white_noise(markers.time, position),
         extent=_extent(position[there]),
     )
+
+
+def _steps(time: Array) -> tuple[float, float, float]:
+    steps = np.diff(time)
+    return float(steps.min()), float(np.median(steps)), float(steps.max())
 
 
 def _turns(rotation: Array) -> Array:

@@ -164,3 +164,15 @@ def test_the_command_prints_json(tmp_path):
     report = json.loads(run(table(tmp_path / "a.csv"), "--json").stdout)
     assert report["ok"] and report["bodies"][0]["samples"] == COUNT
     assert report["assumed"] == {"unit": "m", "up_axis": "z"}
+
+
+def test_stamps_that_jitter_are_shown_with_what_to_do(tmp_path):
+    even = moving()
+    jitter = np.random.default_rng(0).uniform(-4e-3, 4e-3, COUNT)
+    jitter[0] = 0.0
+    path = table(tmp_path / "a.csv", even.with_("jitter", time=TIMES + jitter))
+    least, usual, largest = inspect(path).bodies[0].steps
+    assert 2e-3 < least < 5e-3 and usual == pytest.approx(0.01, abs=1e-3) and 0.015 < largest < 0.018
+    assert "where only the stamps jitter, a table is better read at an even --rate" in run(path).stdout
+    assert "steps of" not in run(table(tmp_path / "b.csv", even)).stdout
+    assert inspect(path, rate=100.0).bodies[0].noise_position < 1e-8

@@ -2,7 +2,10 @@
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from dmpcpp import recordings
+from dmpcpp.cli import main
+from dmpcpp.cli.recording_options import in_flags
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.column_names import Column, column
 from scipy.spatial.transform import Rotation
@@ -319,3 +322,35 @@ def test_one_marker_is_a_motion_once_its_orientation_is_stated_to_be_fixed(tmp_p
     recording = recordings.load(path, markers=["WRIST"], fixed_orientation=True)
     np.testing.assert_allclose(recording.position, POSITIONS + 0.03 * TURNS.as_matrix()[:, :, 0], atol=1e-12)
     np.testing.assert_array_equal(recording.rotation, np.tile(np.eye(3), (12, 1, 1)))
+
+
+# ---------------------------------------------------------------- the command line
+
+
+@pytest.mark.parametrize(
+    ("library", "command"),
+    [
+        ("State unit='cm', 'm' or a number.", "State --unit cm, 'm' or a number."),
+        ("state missing=-9999.", "state --missing -9999."),
+        ("State mend_times=True to sort", "State --mend-times to sort"),
+        ("columns={'time': 0, 'x': 1, ..., 'qw': 7}.", "--columns time=0,x=1,...,qw=7."),
+        ("one rigid body, markers=['a', 'b'].", "one rigid body, --markers a,b."),
+        ("other=3, rated=5", "other=3, rated=5"),
+    ],
+)
+def test_messages_name_the_options_of_the_command_line(library, command):
+    assert in_flags(library) == command
+
+
+def test_a_message_keeps_what_is_no_option_of_the_command():
+    assert in_flags("State rate=100 or unit='m'", {"unit"}) == "State rate=100 or --unit m"
+
+
+def test_the_commands_take_what_tables_need_stated(tmp_path):
+    path = write(tmp_path / "a.csv", ROWS[::-1, :4], HEADER[:4])
+    runner = CliRunner()
+    refused = runner.invoke(main, ["inspect", str(path)])
+    assert refused.exit_code == 3 and "--fixed-orientation" in refused.output
+    refused = runner.invoke(main, ["inspect", str(path), "--fixed-orientation"])
+    assert refused.exit_code == 2 and "State --mend-times" in refused.output
+    assert runner.invoke(main, ["inspect", str(path), "--fixed-orientation", "--mend-times"]).exit_code == 0

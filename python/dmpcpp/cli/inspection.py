@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from dmpcpp.inspection import BodyReport, Inspection
 
+_JITTER = 0.5  # of the usual step; a shorter one is worth a word
+
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
@@ -52,6 +54,7 @@ def _print(found: Inspection) -> None:
     if found.bodies:
         console.print(_bodies_table(found))
         _print_extents(console, found.bodies)
+        _print_uneven(console, found.bodies)
         _print_history(console, found.bodies)
     if found.markers:
         console.print(_markers_table(found))
@@ -116,6 +119,19 @@ def _print_extents(console: Console, bodies: tuple[BodyReport, ...]) -> None:
             console.print(
                 f"  {body.name}: moves over {_millimetres(body.extent)} mm in x, y, z; turns at most at "
                 f"{math.degrees(body.peak_turning):.0f} deg/s",
+                markup=False,
+                soft_wrap=True,
+            )
+
+
+def _print_uneven(console: Console, bodies: tuple[BodyReport, ...]) -> None:
+    """Print where samples follow each other much faster than they usually do: stamps that jitter are noise too."""
+    for body in bodies:
+        least, usual, largest = (1e3 * step for step in body.steps)
+        if not body.refused and least < _JITTER * usual:
+            console.print(
+                f"  {body.name}: steps of {least:.3g} to {largest:.3g} ms, usually {usual:.3g} ms; where only the "
+                f"stamps jitter, a table is better read at an even --rate {body.rate:.4g}",
                 markup=False,
                 soft_wrap=True,
             )

@@ -65,17 +65,16 @@ def _lost(poses: Array, missing: str | float | None) -> NDArray[np.bool_]:
 
 def _poses(arrays: dict[str, Array]) -> Array:
     """Return the array of poses: by its name, put together of positions and orientations, or the only one that fits."""
-    named = [name for name in _POSE_NAMES if name in arrays]
-    if not named and (parts := _parts(arrays)) is not None:
-        return parts
-    fitting = named or [name for name, a in arrays.items() if _fits(a)]
+    parts = _parts(arrays)
+    named = [arrays[name] for name in _POSE_NAMES if name in arrays] or ([] if parts is None else [parts])
+    fitting = named or [array for array in arrays.values() if _fits(array)]
     if len(fitting) != 1:
         held = ", ".join(f"{name} {a.shape}" for name, a in arrays.items()) or "nothing"
         raise InvalidArgument(
             "expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8), or 'position' (T, 3) beside "
             f"'quaternion' (T, 4) or 'rotation' (T, 3, 3). The file holds: {held}."
         )
-    return arrays[fitting[0]]
+    return fitting[0]
 
 
 def _fits(array: Array) -> bool:
@@ -84,17 +83,21 @@ def _fits(array: Array) -> bool:
 
 def _parts(arrays: dict[str, Array]) -> Array | None:
     """Return the poses (..., T, 7) or (..., T, 4, 4) of an array of positions and one of orientations beside it."""
-    place = next((arrays[name] for name in _POSITION_NAMES if name in arrays), None)
-    turn = next((arrays[name] for name in _TURN_NAMES if name in arrays), None)
+    place, turn = _first(arrays, _POSITION_NAMES), _first(arrays, _TURN_NAMES)
     if place is None or turn is None or place.ndim < 2 or place.shape[-1] != 3:
         return None
     if turn.shape == (*place.shape[:-1], 4):
         return np.concatenate([place, turn], axis=-1)
-    if turn.shape == (*place.shape[:-1], 3, 3):
-        poses = np.zeros((*place.shape[:-1], 4, 4))
-        poses[..., :3, :3], poses[..., :3, 3], poses[..., 3, 3] = turn, place, 1.0
-        return poses
-    return None
+    if turn.shape != (*place.shape[:-1], 3, 3):
+        return None
+    poses = np.zeros((*place.shape[:-1], 4, 4))
+    poses[..., :3, :3], poses[..., :3, 3], poses[..., 3, 3] = turn, place, 1.0
+    return poses
+
+
+def _first(arrays: dict[str, Array], names: tuple[str, ...]) -> Array | None:
+    """Return the array of the first of some names that there is."""
+    return next((arrays[name] for name in names if name in arrays), None)
 
 
 def _chosen(poses: Array, index: int | None) -> Array:

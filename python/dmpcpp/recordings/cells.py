@@ -75,12 +75,15 @@ class Cells:
                 return np.nan
             raise InvalidArgument(f"line {line}, {name}: the line ends after {len(cells)} cells.")
         text = cells[column].strip().lower()
-        if (self.blank and not text) or (self.nan and text == "nan") or (self.mark and text == self.mark):
+        if self._is_lost(text):
             return np.nan
         try:
             return number(cells[column], line, name)
         except InvalidArgument as error:
             raise InvalidArgument(f"{error}{self.advice.format(text[:20] or 'empty')}") from None
+
+    def _is_lost(self, text: str) -> bool:
+        return (self.blank and not text) or (self.nan and text == "nan") or (text != "" and text == self.mark)
 
 
 def split_all(lines: Iterable[tuple[int, str]], delimiter: str) -> list[Row]:

@@ -164,12 +164,8 @@ def from_euler(angles: Array, order: str | None, unit: str | None, missing: NDAr
     missing = np.zeros(len(angles), dtype=bool) if missing is None else missing
     angles = np.where(missing[:, None], 0.0, angles)
     _check_finite("angles", angles)
-    if unit == "rad" and np.ptp(angles, axis=0).max() > _MOST_TURNS:
-        k = int(np.argmax(np.ptp(angles, axis=0)))
-        raise InvalidArgument(
-            f"angle_unit: r{'xyz'[k]} ranges over {np.ptp(angles[:, k]):.4g} rad, more than four turns. Are these "
-            "degrees? State angle_unit='deg', or write the angles within one turn."
-        )
+    if unit == "rad":
+        _check_radians(angles)
     sorted_angles = angles[:, ["xyz".index(axis) for axis in order.lower()]]
     return _blanked(Rotation.from_euler(order, sorted_angles, degrees=unit == "deg").as_matrix(), missing)
 
@@ -195,6 +191,17 @@ def sign_flips(quaternions: Array) -> np.ndarray:
 
 def _blanked(rotation: Array, missing: NDArray[np.bool_]) -> Array:
     return np.where(missing[:, None, None], np.nan, rotation)
+
+
+def _check_radians(angles: Array) -> None:
+    """Refuse angles (T, 3) that range so far that they are more likely degrees."""
+    extent = np.ptp(angles, axis=0)
+    k = int(np.argmax(extent))
+    if extent[k] > _MOST_TURNS:
+        raise InvalidArgument(
+            f"angle_unit: r{'xyz'[k]} ranges over {extent[k]:.4g} rad, more than four turns. Are these degrees? State "
+            "angle_unit='deg', or write the angles within one turn."
+        )
 
 
 def _check_finite(name: str, array: Array) -> None:

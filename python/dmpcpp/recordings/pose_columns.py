@@ -92,17 +92,22 @@ def stated_columns(columns: object, place: Callable[[object], int], position_onl
     """
     if not isinstance(columns, Mapping):
         raise InvalidArgument(f"columns: {columns!r}, expected a mapping from time, x, y, z, qx, .. to columns.")
-    turn: tuple[str, ...] = ANGLES if any(name in columns for name in ANGLES) else QUATERNION
-    unknown = set(map(str, columns)) - {"time", *POSITION, *turn}
-    missing = [name for name in (*POSITION, *turn) if name not in columns]
-    if not unknown and missing == list(turn):
-        if not position_only:
-            raise no_turn("the columns stated")
-        missing = []
+    names = (*POSITION, *_turn_names(columns, position_only))
+    unknown = set(map(str, columns)) - {"time", *names}
+    missing = [name for name in names if name not in columns]
     if unknown or missing:
         wrong = f"unknown {', '.join(map(repr, sorted(unknown)))}" if unknown else f"missing {', '.join(missing)}"
-        raise InvalidArgument(f"columns: {wrong}; expected time, {', '.join((*POSITION, *turn))}.")
+        raise InvalidArgument(f"columns: {wrong}; expected time, {', '.join(names)}.")
     return {str(name): place(column) for name, column in columns.items()}
+
+
+def _turn_names(columns: Mapping[object, object], position_only: bool) -> tuple[str, ...]:
+    """Return the names of the orientation's columns that are to be there beside a position's."""
+    if set(columns) - {"time"} == set(POSITION):
+        if not position_only:
+            raise no_turn("the columns stated")
+        return ()
+    return ANGLES if any(name in columns for name in ANGLES) else QUATERNION
 
 
 def _marked(position: Array, missing: object) -> NDArray[np.bool_]:

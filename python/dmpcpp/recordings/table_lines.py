@@ -48,18 +48,13 @@ def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
     lines = list(data_lines(text, _COMMENTS, skip))
     if not lines:
         raise InvalidArgument("no lines of data.")
-    delimiter = _delimiter(lines[0][1]) if delimiter is None else delimiter
-    if not isinstance(delimiter, str) or len(delimiter) != 1:
-        raise InvalidArgument(f"delimiter: {delimiter!r}, expected one character.")
+    delimiter = _delimiter(lines[0][1], delimiter)
     first = [cell.strip() for cell in split(lines[0][1], delimiter, lines[0][0])]
     headed = not is_data(first)
     names = first if headed else _commented(text, lines[0][0], len(first), delimiter)
     units = _units(lines[1:2], delimiter) if headed else []
     data = lines[headed + bool(units) :]
-    notes = []
-    if delimiter != "," and _has_decimal_commas(data, delimiter):
-        data = [(line, content.replace(",", ".")) for line, content in data]
-        notes.append("decimal commas read as points")
+    data, notes = _with_points(data, delimiter)
     return TableLines(split_all(data, delimiter), names, units, delimiter, bool(names) and not headed, notes)
 
 
@@ -74,7 +69,11 @@ def shown(names: list[str]) -> str:
     return f"[{short}{', ...' if len(names) > 20 else ''}]"
 
 
-def _delimiter(line: str) -> str:
+def _delimiter(line: str, stated: str | None) -> str:
+    if stated is not None:
+        if not isinstance(stated, str) or len(stated) != 1:
+            raise InvalidArgument(f"delimiter: {stated!r}, expected one character.")
+        return stated
     held = [candidate for candidate in ",;\t" if candidate in line]
     if len(held) == 1:
         return held[0]
@@ -111,8 +110,12 @@ def _commented(text: str, above: int, count: int, delimiter: str) -> list[str]:
     return []
 
 
-def _has_decimal_commas(lines: list[tuple[int, str]], delimiter: str) -> bool:
-    """Return whether numbers hold commas where others have points, and none holds a point."""
+def _with_points(lines: list[tuple[int, str]], delimiter: str) -> tuple[list[tuple[int, str]], list[str]]:
+    """Return lines with points where numbers hold decimal commas, none holding a point; and what was done."""
+    if delimiter == ",":
+        return lines, []
     cells = [cell.strip() for line, content in lines[:_LOOKED_AT] for cell in split(content, delimiter, line)]
-    numbers = [cell for cell in cells if _is_number(cell)]
-    return any("," in cell for cell in numbers) and not any("." in cell for cell in numbers)
+    numbers = " ".join(filter(_is_number, cells))
+    if "," not in numbers or "." in numbers:
+        return lines, []
+    return [(line, content.replace(",", ".")) for line, content in lines], ["decimal commas read as points"]
