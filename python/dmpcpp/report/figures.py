@@ -127,13 +127,13 @@ def still(run: RunFolder) -> str:
     hand, tool = record.demonstrated_pose[:, :3, 3], record.executed_pose[:, :3, 3]
     moments = [0, len(record.executed_time) // 2, -1]
     shapes = triangles(record.arm, record.executed_joints[moments])
-    page = plot.figure(_WIDE, 3.6)
+    page = plot.figure(_WIDE, 4.0)
     for k, (moment, shape) in enumerate(zip(moments, shapes, strict=True)):
-        axes = page.add_axes((0.32 * k, 0.04, 0.32, 0.88), projection="3d", facecolor="none")
+        axes = page.add_axes((0.32 * k, 0.12, 0.32, 0.76), projection="3d", facecolor="none")
         plot.shape(axes, shape, around=np.concatenate([shapes.reshape(-1, 3), hand, tool]))
         axes.plot(*hand[_few(len(hand))].T, color="#E69F00", linewidth=2.4, zorder=3, label="demonstrated")
         axes.plot(*tool[_few(len(tool))].T, color="#1A1A1A", linewidth=1.0, zorder=4, label="executed")
-        axes.set_title(f"{record.executed_time[moment]:.2f} s", fontsize=9, y=0.97)
+        axes.set_title(f"{record.executed_time[moment]:.2f} s", fontsize=9, y=1.03)
     _legend(page, axes)
     return (
         f'<img alt="The arm at three moments" src="data:image/png;base64,{base64.b64encode(plot.png(page)).decode()}">'
