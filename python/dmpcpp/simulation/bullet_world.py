@@ -118,6 +118,7 @@ class BulletWorld:
         self._of_arm = [names.index(name) for name in self.arm.joint_names]
         of_held = [k for k in range(len(moving)) if k not in self._of_arm]
         self._tree_order = np.argsort(self._of_arm + of_held).tolist()
+        self._arm_comes_first = self._tree_order == sorted(self._tree_order)
         self._arm_joints = [moving[k][0] for k in self._of_arm]
         self._held = [moving[k] for k in of_held]
         self._moving = self._arm_joints + [info[0] for info in self._held]
