@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument, MissingDependency
 from dmpcpp.simulation.disturbance import Disturbance
-from dmpcpp.simulation.obstacles import Box
+from dmpcpp.simulation.obstacles import Box, refuse_names
 from dmpcpp.simulation.quiet import quiet
-from dmpcpp.simulation.robot_description import RobotDescription, describe
+from dmpcpp.simulation.robot_description import RobotDescription, describe, links_of
 from dmpcpp.simulation.simulator import FLOOR, GRAVITY, checked_time_step
 
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
@@ -45,6 +45,7 @@ class BulletWorld:
     ) -> None:
         """Load the arm into a world of its own."""
         self.arm, self.time_step = arm, checked_time_step(time_step)
+        refuse_names(obstacles, links_of(arm))
         self._p = _pybullet()
         with quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
