@@ -201,3 +201,10 @@ def test_more_distance_can_be_asked_for(engine):
 def test_a_box_that_is_none_is_refused(wrong):
     with pytest.raises(InvalidArgument, match="of box 'crate'"):
         Box(**{"name": "crate", "size": (0.1, 0.1, 0.1), "centre": (0.0, 0.0, 0.0), **wrong})
+
+
+@pytest.mark.parametrize("names", [["floor"], ["panda_link3"], ["crate", "crate"]])
+def test_a_box_with_the_name_of_something_else_is_refused(engine, names):
+    boxes = [Box(name, (0.1, 0.1, 0.1), (2.0, k, 0.5)) for k, name in enumerate(names)]
+    with pytest.raises(InvalidArgument, match=rf"obstacles\[{len(names) - 1}\].name: '{names[-1]}' is a link"):
+        engine(PANDA, 1e-3, obstacles=boxes)

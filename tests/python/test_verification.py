@@ -1,6 +1,7 @@
 """Logs of an arm, made by simulation with a known lag and known faults, held against their plan."""
 
 import csv
+import io
 import json
 from dataclasses import replace
 from types import SimpleNamespace
@@ -383,6 +384,17 @@ def test_the_command_verifies_and_states_the_lag(files):
         assert result.exit_code == 0, result.output
         assert "13.700 ms" in result.output
         assert "verified" in result.output and "recorded on a real arm" in " ".join(result.output.split())
+
+
+def test_the_joint_concerned_is_named_in_full_however_narrow_the_terminal():
+    from dmpcpp.cli.tables import checks_table
+    from dmpcpp.simulation import Check
+    from rich.console import Console
+
+    console = Console(width=60, record=True, file=io.StringIO())
+    console.print(checks_table([Check("acceleration_ratio", True, 0.5, 1.0, "1", 0.25, "panda_joint4")]))
+    cells = [line.split("│")[-2] for line in console.export_text().splitlines() if line.count("│") > 2]
+    assert "".join(cell.strip() for cell in cells).endswith("panda_joint4")
 
 
 def test_its_json_is_the_summary(files):

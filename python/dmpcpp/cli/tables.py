@@ -18,7 +18,8 @@ def checks_table(checks: Iterable[Check]) -> Table:
 
     table = Table(title="checks", title_justify="left")
     for title in ("", "check", "value", "limit", "unit", "where"):
-        table.add_column(title, justify="right" if title in ("value", "limit") else "left", no_wrap=title == "check")
+        side = "right" if title in ("value", "limit") else "left"
+        table.add_column(title, justify=side, no_wrap=title == "check", overflow="fold")  # a joint's name stays whole
     for check in checks:
         where = f"{check.time:.2f} s " if check.time is not None else ""
         mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"

@@ -136,8 +136,8 @@ class Bullet(BulletWorld):
 
     def _in_tree_order(self, of_arm: NDArray[np.float64], of_held: list[float]) -> list[float]:
         """Values of all moving joints as Bullet's inverse dynamics wants them."""
-        values = of_arm.tolist() + of_held
-        return [values[k] for k in self._tree_order]
+        values: list[float] = of_arm.tolist() + of_held
+        return values if self._arm_comes_first else [values[k] for k in self._tree_order]
 
     def _root_in_base(self) -> NDArray[np.float64]:
         return self._root_in_still_base if self._base_stands else np.linalg.inv(self._link_pose(self._base))

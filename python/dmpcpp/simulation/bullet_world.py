@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument, MissingDependency
 from dmpcpp.simulation.disturbance import Disturbance
-from dmpcpp.simulation.obstacles import Box
+from dmpcpp.simulation.obstacles import Box, refuse_names
 from dmpcpp.simulation.quiet import quiet
-from dmpcpp.simulation.robot_description import RobotDescription, describe
+from dmpcpp.simulation.robot_description import RobotDescription, describe, links_of
 from dmpcpp.simulation.simulator import FLOOR, GRAVITY, checked_time_step
 
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
@@ -45,6 +45,7 @@ class BulletWorld:
     ) -> None:
         """Load the arm into a world of its own."""
         self.arm, self.time_step = arm, checked_time_step(time_step)
+        refuse_names(obstacles, links_of(arm))
         self._p = _pybullet()
         with quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
@@ -118,6 +119,7 @@ class BulletWorld:
         self._of_arm = [names.index(name) for name in self.arm.joint_names]
         of_held = [k for k in range(len(moving)) if k not in self._of_arm]
         self._tree_order = np.argsort(self._of_arm + of_held).tolist()
+        self._arm_comes_first = self._tree_order == sorted(self._tree_order)
         self._arm_joints = [moving[k][0] for k in self._of_arm]
         self._held = [moving[k] for k in of_held]
         self._moving = self._arm_joints + [info[0] for info in self._held]

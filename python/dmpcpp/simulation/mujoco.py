@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument, MissingDependency
 from dmpcpp.simulation.disturbance import Disturbance
-from dmpcpp.simulation.obstacles import Box
+from dmpcpp.simulation.obstacles import Box, refuse_names
 from dmpcpp.simulation.quiet import quiet
-from dmpcpp.simulation.robot_description import RobotDescription, describe
+from dmpcpp.simulation.robot_description import RobotDescription, describe, links_of
 from dmpcpp.simulation.simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step
 
 _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
@@ -70,6 +70,7 @@ class MuJoCo:
     ) -> None:
         """Load the arm into a world of its own."""
         self.arm, self.time_step = arm, checked_time_step(time_step)
+        refuse_names(obstacles, links_of(arm))
         self._m = _mujoco()
         self.name = f"MuJoCo {importlib.metadata.version('mujoco')}"
         disturbance = disturbance or Disturbance()

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.simulation.simulator import FLOOR
 
 
 @dataclass(frozen=True)
@@ -40,3 +42,13 @@ class Box:
                 raise InvalidArgument(f"{name} of box '{self.name}': {value}, expected three finite numbers [m].")
         if min(self.size) <= 0.0:
             raise InvalidArgument(f"size of box '{self.name}': {self.size}, expected three positive numbers [m].")
+
+
+def refuse_names(obstacles: Sequence[Box], links: Collection[str]) -> None:
+    """Refuse a name that contacts would take for something else: of a link, of the floor, of another obstacle."""
+    for k, box in enumerate(obstacles):
+        taken = {*links, FLOOR, *(other.name for other in obstacles[:k])}
+        if box.name in taken:
+            raise InvalidArgument(
+                f"obstacles[{k}].name: '{box.name}' is a link, the floor or another obstacle. Give it its own."
+            )
