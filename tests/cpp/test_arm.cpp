@@ -266,6 +266,34 @@ TEST_CASE("Graphs that are no trees are refused and never hang") {
   CHECK(refuses_with(robot(joint("j", "a", "nowhere")), "nowhere"));
 }
 
+TEST_CASE("A cycle is found however its XML is written, whether or not the walk from base to tip meets it") {
+  const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+    return text;
+  };
+  const auto joint = [](const char* name, const char* parent, const char* child) {
+    return std::string("<joint type=\"fixed\" name=\"") + name + "\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/></joint>";
+  };
+  const std::string links = R"(<link name="root"/><link name="a"/><link name="b"/><link name="c"/>)";
+  const std::string apart = "<robot name=\"r\">" + links + joint("i", "root", "c") + joint("j", "a", "b") +
+                            joint("k", "b", "a") + "</robot>";
+  const std::string hanging = replaced(apart, "link=\"c\"", "link=\"a\"");
+  for (const std::string& text : {apart, hanging})
+    for (const char* written : {" link=", "\tlink=", "\nlink=", " link =", " link\n= ", " of=\">\" link="}) {
+      CAPTURE(written);
+      for (const char* tip : {"", "a"})
+        CHECK(refusal(replaced(text, " link=", written), "root", tip).find("expected a tree") !=
+              std::string::npos);
+    }
+  CHECK(refusal(replaced(apart, "\"a\"/>", "\"&#97;\"/>"), "root", "a").find("cycle") != std::string::npos);
+}
+
+TEST_CASE("A text larger than 64 MiB is refused before it is read") {
+  CHECK(refuses_with(std::string((64u << 20) + 1, ' '), "64 MiB"));
+}
+
 TEST_CASE("Text that is no URDF is refused, with the words of urdfdom and without printing") {
   std::ostringstream printed;
   std::streambuf* const console = std::cerr.rdbuf(printed.rdbuf());

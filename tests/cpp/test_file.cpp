@@ -61,6 +61,33 @@ TEST_CASE("a file is written whole or not at all") {
   CHECK(files == 1);
 }
 
+TEST_CASE("a file of one kind is not taken for another, nor a large one for a model") {
+  const Folder folder;
+  const std::string turn = folder.path / "turn.json";
+  const std::string both = folder.path / "pose.json";
+  const OrientationDmp orientation = OrientationDmp::fit(rotation(100, 1.0, 3.0));
+  save(orientation, turn);
+  save(PoseDmp::fit(pose(100, 1.0)), both);
+  CHECK(to_json(load_orientation_dmp(turn)) == to_json(orientation));
+  CHECK(load_pose_dmp(both).duration() == 1.0);
+  CHECK_THROWS_WITH_AS(load_dmp(turn), doctest::Contains("expected a Dmp"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(load_orientation_dmp(both), doctest::Contains("expected an OrientationDmp"),
+                       InvalidArgument);
+  std::filesystem::resize_file(both, (64u << 20) + 1);
+  CHECK_THROWS_WITH_AS(load(both), doctest::Contains("larger than 64 MiB"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(from_json(std::string((64u << 20) + 1, ' ')), doctest::Contains("64 MiB"),
+                       InvalidArgument);
+}
+
+TEST_CASE("what can not be moved into place leaves nothing behind") {
+  const Folder folder;
+  const std::filesystem::path occupied = folder.path / "occupied";
+  std::filesystem::create_directory(occupied);
+  CHECK_THROWS_WITH_AS(save(Dmp::fit(reach(100, 1.0)), occupied), doctest::Contains("can not be written"),
+                       FileError);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) == 1);
+}
+
 TEST_CASE("what is no model of this version is refused with the place") {
   const std::string text = to_json(Dmp::fit(reach(100, 1.0)));
   const auto refused = [](const std::string& bad, const char* reason) {
@@ -82,6 +109,9 @@ TEST_CASE("what is no model of this version is refused with the place") {
   refused(replaced(text, "\"duration\": 1.0", "\"duration\": 0"), "duration");
   refused(replaced(text, "\"duration\": 1.0", "\"duration\": 1e999"), "JSON");
   refused(std::string(100000, '['), "nested deeper");
+  refused(replaced(text, "\"force_after_end\": false", "\"force_after_end\": 0"), "expected true or false");
+  refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": 7"), "kind: expected text");
+  refused(replaced(text, "\"weights\": [", "\"weights\": [7, "), "weights: expected rows of numbers");
 }
 
 TEST_CASE("keys that this version does not know are passed over") {

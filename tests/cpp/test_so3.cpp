@@ -77,6 +77,25 @@ TEST_CASE("the lifted logarithm goes on through pi and 2 pi") {
   }
 }
 
+TEST_CASE("next to a whole turn the lifted logarithm keeps the axis that rounding has lost") {
+  const Vector3d axis = Vector3d(1, -2, 2) / 3;
+  for (const int turns : {-2, -1, 1, 2, 7})
+    for (const double beside : {-9e-4, -1e-9, 0.0, 1e-6, 9e-4}) {
+      const Vector3d v = (2 * kPi * turns + beside) * axis;
+      const Vector3d previous = v + 0.01 * Vector3d(1, 1, -1);
+      CHECK((so3::exp(so3::lifted_log(so3::exp_quaternion(v), previous)) - so3::exp(v)).norm() < 1e-4);
+      CHECK((so3::lifted_log(so3::exp_quaternion(v), v) - v).norm() < 1e-13);
+    }
+  const Eigen::Quaterniond small = so3::exp_quaternion(1e-5 * axis);
+  CHECK(so3::lifted_log(small, -3.2 * axis) == so3::log(small));  // no whole turn away: the principal one
+}
+
+TEST_CASE("quaternions of any length that a double holds have a logarithm") {
+  const Eigen::Quaterniond q = so3::exp_quaternion(Vector3d(.3, -.4, 1.2));
+  for (const double length : {1e-300, 1e-150, 1.0, 1e150, 1e300})
+    CHECK((so3::log(Eigen::Quaterniond(length * q.coeffs())) - Vector3d(.3, -.4, 1.2)).norm() < 1e-15);
+}
+
 TEST_CASE("the left Jacobian turns rates of the rotation vector into angular velocities") {
   std::mt19937 random(4);
   for (const double angle : {1e-9, 1e-3, .0499, .0501, 1., 3., 5.}) {
@@ -87,6 +106,12 @@ TEST_CASE("the left Jacobian turns rates of the rotation vector into angular vel
     CHECK((so3::left_jacobian(v) * rate - so3::log(change) / (2 * h)).norm() < 1e-9);
     CHECK((so3::left_jacobian(v) * so3::left_jacobian_inverse(v) - Matrix3d::Identity()).norm() < 1e-12);
   }
+}
+
+TEST_CASE("the left Jacobian of a vector too long to turn along is the projection onto it") {
+  const Vector3d axis = Vector3d(2, -1, 2) / 3;
+  for (const double length : {1e15, 0.99e20, 1.01e20, 1e200})
+    CHECK((so3::left_jacobian(length * axis) - axis * axis.transpose()).cwiseAbs().maxCoeff() < 1e-14);
 }
 
 TEST_CASE("Euler angles: the reference matrices of the source's product and of ZYX") {
@@ -119,6 +144,48 @@ TEST_CASE("to_euler inverts from_euler in every convention, at gimbal lock too")
       CHECK(second <= kPi + 1e-12);
     }
   }
+}
+
+TEST_CASE("Euler angles lie in their ranges, and at gimbal lock the third is zero") {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> angle(-kPi, kPi);
+  for (const char* convention : {"ZYX", "XYZ", "ZXZ", "XYX", "zyx", "xyz", "zxz", "source"}) {
+    const bool proper = convention[0] == convention[2];
+    for (int i = 0; i < 200; ++i) {
+      const bool locked = i % 4 == 0;
+      const double lock = proper ? (i % 8 == 0 ? 0.0 : kPi) : (i % 8 == 0 ? kPi / 2 : -kPi / 2);
+      const Vector3d angles(angle(random), locked ? lock : angle(random), angle(random));
+      const Vector3d found = so3::to_euler(so3::from_euler(angles, convention), convention);
+      CAPTURE(convention);
+      CAPTURE(angles.transpose());
+      CHECK((found[0] > -kPi && found[0] <= kPi && found[2] > -kPi && found[2] <= kPi));
+      CHECK((found[1] >= (proper ? 0.0 : -kPi / 2) && found[1] <= (proper ? kPi : kPi / 2)));
+      if (locked) CHECK(std::abs(std::remainder(found[1] - lock, 2 * kPi)) < 1e-7);
+    }
+  }
+  for (const char* convention : {"ZYX", "zyx", "ZXZ", "zxz"}) {
+    const double lock = convention[0] == convention[2] ? 0.0 : kPi / 2;
+    CHECK(so3::to_euler(so3::from_euler({0.4, lock, 0.0}, convention), convention)[2] ==
+          doctest::Approx(0.0).epsilon(1e-7));
+  }
+}
+
+TEST_CASE(
+    "the nearest rotation is one, is itself for a rotation and the polar factor for what is not quite one") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> noise(-3e-4, 3e-4);
+  for (int i = 0; i < 100; ++i) {
+    const Matrix3d exact = so3::exp(3.0 * random_axis(random));
+    CHECK((so3::nearest_rotation(exact) - exact).cwiseAbs().maxCoeff() < 2e-15);
+    const Matrix3d rough = exact + Matrix3d::NullaryExpr([&] { return noise(random); });
+    REQUIRE(so3::is_rotation(rough));
+    const Matrix3d found = so3::nearest_rotation(rough);
+    CHECK((found.transpose() * found - Matrix3d::Identity()).cwiseAbs().maxCoeff() < 2e-15);
+    const Matrix3d stretch = found.transpose() * rough;  // symmetric in a polar decomposition
+    CHECK((stretch - stretch.transpose()).cwiseAbs().maxCoeff() < 1e-15);
+  }
+  CHECK_FALSE(so3::is_rotation(1.001 * Matrix3d::Identity()));
+  CHECK(so3::is_rotation(1.0004 * Matrix3d::Identity()));
 }
 
 TEST_CASE("an unknown convention and a matrix that is no rotation are refused with a reason") {

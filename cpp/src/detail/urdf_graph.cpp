@@ -39,6 +39,14 @@ class CapturedLog : public console_bridge::OutputHandler {
   std::string text_;
 };
 
+// The scan reads XML in passing only: a name that it missed may still close a cycle, on which no walk ends.
+void require_tree(const urdf::ModelInterface& model) {
+  Parents parents;
+  for (const auto& [name, joint] : model.joints_)
+    add_parent(parents, joint->child_link_name, {name, joint->parent_link_name});
+  refuse_cycles(parents);
+}
+
 std::string listed(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
   std::string text;
@@ -59,6 +67,7 @@ ParsedUrdf parse_urdf(const std::string& text) {
   }
   if (!parsed.model || !parsed.model->getRoot())
     throw InvalidArgument("urdf: refused by urdfdom: " + (log.text().empty() ? "no root link." : log.text()));
+  require_tree(*parsed.model);
   parsed.complaints = log.text();
   return parsed;
 }

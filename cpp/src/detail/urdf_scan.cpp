@@ -1,7 +1,7 @@
 #include "urdf_scan.hpp"
 
+#include <cstring>
 #include <dmp/error.hpp>
-#include <map>
 #include <set>
 #include <vector>
 
@@ -11,17 +11,16 @@ namespace {
 constexpr int deepest_nesting = 100;
 constexpr std::size_t largest_text = 64u << 20;
 
-struct Parent {
-  std::string joint, link;
-};
-using Parents = std::map<std::string, Parent>;  // child link -> the joint above it
+constexpr const char* blanks = " \t\r\n";
 
 std::string attribute(const std::string& tag, const std::string& name) {
-  for (const char quote : {'"', '\''}) {
-    const std::size_t at = tag.find(" " + name + "=" + quote);
-    if (at == std::string::npos) continue;
-    const std::size_t begin = at + name.size() + 3;
-    return tag.substr(begin, tag.find(quote, begin) - begin);
+  for (std::size_t at = tag.find(name); at != std::string::npos; at = tag.find(name, at + 1)) {
+    const std::size_t equals = tag.find_first_not_of(blanks, at + name.size());
+    if (at == 0 || !std::strchr(blanks, tag[at - 1]) || equals == std::string::npos || tag[equals] != '=')
+      continue;
+    const std::size_t quote = tag.find_first_not_of(blanks, equals + 1);
+    if (quote == std::string::npos || (tag[quote] != '"' && tag[quote] != '\'')) continue;
+    return tag.substr(quote + 1, tag.find(tag[quote], quote + 1) - quote - 1);
   }
   return "";
 }
@@ -74,10 +73,7 @@ class Scanner {
   }
 
   void add() {
-    const auto [at, is_new] = parents_.emplace(child_, above_);
-    if (!is_new)
-      throw InvalidArgument("urdf: link '" + child_ + "' is the child of two joints, '" + at->second.joint +
-                            "' and '" + above_.joint + "'; expected a tree.");
+    add_parent(parents_, child_, above_);
     child_.clear();
     above_.link.clear();
   }
@@ -88,6 +84,15 @@ class Scanner {
   Parents parents_;
   MissingLimits missing_;
 };
+
+}  // namespace
+
+void add_parent(Parents& parents, const std::string& child, const Parent& above) {
+  const auto [at, is_new] = parents.emplace(child, above);
+  if (!is_new)
+    throw InvalidArgument("urdf: link '" + child + "' is the child of two joints, '" + at->second.joint +
+                          "' and '" + above.joint + "'; expected a tree.");
+}
 
 void refuse_cycles(const Parents& parents) {
   std::set<std::string> cleared;  // links known to hang from a root
@@ -103,8 +108,6 @@ void refuse_cycles(const Parents& parents) {
     cleared.insert(walked.begin(), walked.end());
   }
 }
-
-}  // namespace
 
 MissingLimits scan_urdf(const std::string& text) {
   if (text.size() > largest_text) throw InvalidArgument("urdf: larger than 64 MiB.");
