@@ -25,6 +25,16 @@ std::string attribute(const std::string& tag, const std::string& name) {
   return "";
 }
 
+/// Where the tag at `at` ends: a '>' within quotes is a part of an attribute. npos if nowhere.
+std::size_t end_of_tag(const std::string& text, std::size_t at) {
+  while ((at = text.find_first_of("\"'>", at)) != std::string::npos && text[at] != '>') {
+    const std::size_t closing = text.find(text[at], at + 1);
+    if (closing == std::string::npos) return closing;
+    at = closing + 1;
+  }
+  return at;
+}
+
 // Reads tag by tag and keeps what the graph needs. It need not understand all of XML: urdfdom judges the
 // syntax.
 class Scanner {
@@ -33,7 +43,7 @@ class Scanner {
     std::size_t at = 0;
     while ((at = text.find('<', at)) != std::string::npos) {
       const bool comment = text.compare(at, 4, "<!--") == 0;
-      const std::size_t end = text.find(comment ? "-->" : ">", at);
+      const std::size_t end = comment ? text.find("-->", at) : end_of_tag(text, at);
       if (end == std::string::npos) return;
       if (!comment) take(text.substr(at, end - at + 1));
       at = end + 1;
