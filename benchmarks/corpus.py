@@ -70,7 +70,7 @@ def reason(outcome: batch.Outcome) -> str:
     if outcome.verdict == "fail":
         return outcome.cause
     said = outcome.cause.removeprefix(f"{Path(outcome.file).name}: ")
-    return re.split(r";|\. |, expected", re.sub(r"-?\d+(\.\d+)?", "..", said))[0]
+    return re.split(r";|\. |, expected", re.sub(r"(?<!\w)-?\d+(\.\d+)?", "N", said))[0]
 
 
 @click.command()
