@@ -1,3 +1,4 @@
+#include <cmath>
 #include <dmp/file.hpp>
 #include <dmp/so3.hpp>
 #include <iostream>

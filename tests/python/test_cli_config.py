@@ -68,3 +68,14 @@ def test_a_file_whose_writing_is_interrupted_is_not_there(tmp_path, monkeypatch)
     with pytest.raises(KeyboardInterrupt):
         write_record(tmp_path / "execution.npz", record)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [("file = 3", "wrong.toml: file: 3, expected path"), ('file = "x"\nbasis-count = "many"', "--basis-count")],
+)
+def test_a_value_of_another_type_is_refused_with_its_place(tmp_path, written, said):
+    (tmp_path / "wrong.toml").write_text(f"[imitate]\n{written}\n")
+    done = run("imitate", "--config", "wrong.toml", cwd=tmp_path)
+    assert done.returncode == 2
+    assert said in done.stderr

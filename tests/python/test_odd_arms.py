@@ -136,3 +136,11 @@ def test_a_joint_of_the_arm_that_follows_another_is_refused_with_its_name(engine
     arm = Arm.from_urdf(robot(*SHOULDER, link("b"), follower), base="base", tip="b")
     with pytest.raises(InvalidArgument, match="joint 'j2' between 'base' and 'b' mimics another"):
         engine(arm, 1e-3)
+
+
+@pytest.mark.parametrize("engine", [Bullet, MuJoCo])
+def test_an_arm_without_a_mass_beyond_its_last_joint_is_refused(engine):
+    frames = '<link name="b"/><link name="c"/>', joint("j2", "revolute", "a", "b"), joint("flange", "fixed", "b", "c")
+    arm = Arm.from_urdf(robot(*SHOULDER, *frames), base="base", tip="c")
+    with pytest.raises(InvalidArgument, match=r"no link beyond joint 'j2' has a mass.* Give b, c an <inertial>"):
+        engine(arm, 1e-3)

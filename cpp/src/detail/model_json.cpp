@@ -128,6 +128,9 @@ Json parse_json(const std::string& text) {
   try {
     Guard guard;
     return Json::parse(text, std::ref(guard));
+  } catch (const nlohmann::json::parse_error& error) {  // whose text would quote what may be no text at all
+    throw InvalidArgument("model: not readable as JSON from byte " + std::to_string(error.byte) +
+                          " on, expected what dmp::save (dmpcpp.save, `dmpcpp fit`) writes.");
   } catch (const nlohmann::json::exception& error) {
     throw InvalidArgument(std::string("model: not readable as JSON: ") + error.what());
   }

@@ -54,7 +54,7 @@ def save_config(path: Path) -> None:
 def _take(context: click.Context, _: click.Parameter, path: Path | None) -> None:
     if path is None:
         return
-    known = {parameter.name for parameter in context.command.params if parameter.name not in ("config", "help")}
+    known = {p.name: p for p in context.command.params if p.name not in ("config", "help")}
     taken = {}
     for key, value in _table(path, str(context.command.name)).items():
         name = key.replace("-", "_")
@@ -63,8 +63,19 @@ def _take(context: click.Context, _: click.Parameter, path: Path | None) -> None
             hint = f" Did you mean '{near[0].replace('_', '-')}'?" if near else ""
             options = ", ".join(sorted(str(k).replace("_", "-") for k in known))
             raise InvalidArgument(f"--config: {path}: '{key}', expected one of {options}.{hint}")
+        _require_type(context, known[name], value, f"--config: {path}: {key}")
         taken[name] = value
     context.default_map = taken
+
+
+def _require_type(context: click.Context, parameter: click.Parameter, value: Any, where: str) -> None:
+    """Refuse what click would stumble over; what it refuses itself it says with the name of the option."""
+    try:
+        parameter.type_cast_value(context, value)
+    except click.UsageError:
+        return
+    except (TypeError, ValueError):
+        raise InvalidArgument(f"{where}: {value!r}, expected {parameter.type.name}: text stands in quotes.") from None
 
 
 def _table(path: Path, command: str) -> dict[str, Any]:

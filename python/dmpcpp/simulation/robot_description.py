@@ -75,8 +75,8 @@ def describe(
     Raises
     ------
     InvalidArgument
-        A mesh can not be found, a mass is negative, an inertia is not made of finite numbers, or a joint of the
-        arm follows another.
+        A mesh can not be found, a mass is negative, an inertia is not made of finite numbers, nothing beyond a
+        joint has a mass, or a joint of the arm follows another.
     """
     robot = ET.fromstring(arm.urdf)
     _refuse_folded_joints(robot, arm)
@@ -86,6 +86,7 @@ def describe(
         _prepare_shapes(link, arm.folder, folder, visuals)
     repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
     _change(robot, arm, disturbance or Disturbance())
+    _refuse_massless(robot, arm)
     freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
     groups = _rigid_groups(robot)
     return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
@@ -172,6 +173,20 @@ def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: P
         part = copy.deepcopy(collision)
         part.find("geometry/mesh").set("filename", str(path))  # type: ignore[union-attr]
         link.append(part)
+
+
+def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
+    """What has no mass beyond a joint has no motion that physics could tell; the last joint has the least beyond it."""
+    last = arm.joint_names[-1]
+    beyond = {_ends(joint)[1] for joint in robot.findall("joint") if joint.get("name") == last}
+    for _ in robot.findall("link"):
+        beyond |= {_ends(joint)[1] for joint in robot.findall("joint") if _ends(joint)[0] in beyond}
+    masses = [mass for link in robot.findall("link") if link.get("name") in beyond for mass in link.iter("mass")]
+    if not any(float(mass.get("value", 0.0)) > 0.0 for mass in masses):
+        raise InvalidArgument(
+            f"arm.urdf: no link beyond joint '{last}' has a mass, expected one that physics can move. Give "
+            f"{', '.join(sorted(beyond))} an <inertial>; `dmpcpp check-urdf` names every link without one."
+        )
 
 
 def _repair_inertia(link: ET.Element) -> bool:
