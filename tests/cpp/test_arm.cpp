@@ -290,6 +290,16 @@ TEST_CASE("A cycle is found however its XML is written, whether or not the walk 
   CHECK(refusal(replaced(apart, "\"a\"/>", "\"&#97;\"/>"), "root", "a").find("cycle") != std::string::npos);
 }
 
+TEST_CASE("Deep nesting is refused behind quotes too that are no attribute's") {
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  for (const char* before :
+       {"<![CDATA[']]>", "<!DOCTYPE r '>", "<?note it's?>", "<!-- ' -->", "<b of='>'/>"}) {
+    CAPTURE(before);
+    CHECK(refuses_with("<robot name='r'>" + std::string(before) + deep, "nested"));
+  }
+}
+
 TEST_CASE("A text larger than 64 MiB is refused before it is read") {
   CHECK(refuses_with(std::string((64u << 20) + 1, ' '), "64 MiB"));
 }

@@ -35,6 +35,15 @@ std::size_t end_of_tag(const std::string& text, std::size_t at) {
   return at;
 }
 
+/// Where what begins with '<' at `at` ends, as urdfdom's parser takes it: quotes count in elements alone.
+std::size_t end_of_markup(const std::string& text, std::size_t at) {
+  const auto is = [&](const char* start) { return text.compare(at, std::strlen(start), start) == 0; };
+  if (is("<!--")) return text.find("-->", at);
+  if (is("<![CDATA[")) return text.find("]]>", at);
+  if (is("<!") || is("<?")) return text.find('>', at);
+  return end_of_tag(text, at);
+}
+
 // Reads tag by tag and keeps what the graph needs. It need not understand all of XML: urdfdom judges the
 // syntax.
 class Scanner {
@@ -42,10 +51,9 @@ class Scanner {
   void read(const std::string& text) {
     std::size_t at = 0;
     while ((at = text.find('<', at)) != std::string::npos) {
-      const bool comment = text.compare(at, 4, "<!--") == 0;
-      const std::size_t end = comment ? text.find("-->", at) : end_of_tag(text, at);
+      const std::size_t end = end_of_markup(text, at);
       if (end == std::string::npos) return;
-      if (!comment) take(text.substr(at, end - at + 1));
+      take(text.substr(at, end - at + 1));
       at = end + 1;
     }
   }
