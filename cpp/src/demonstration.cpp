@@ -55,17 +55,18 @@ RowMatrix checked(const RowMatrix& positions) {
   return positions;
 }
 
-Rotations checked(const Rotations& rotations) {
+/// `what` the caller gave them as.
+Rotations checked(const Rotations& rotations, const char* what = "rotations") {
   Rotations result = rotations;
   for (std::size_t k = 0; k < rotations.size(); ++k) {
     if (!so3::is_rotation(rotations[k]))  // the name costs more than the look
-      so3::require_rotation(rotations[k], indexed("rotations", static_cast<long>(k)));
+      so3::require_rotation(rotations[k], indexed(what, static_cast<long>(k)));
     result[k] = Quaterniond(rotations[k]).normalized().toRotationMatrix();
     if (k == 0) continue;
     const double angle = so3::distance(result[k], result[k - 1]);
     if (angle > M_PI / 2)
       throw InvalidArgument(
-          indexed("rotations", static_cast<long>(k)) + ": " + number(angle * 180 / M_PI) +
+          indexed(what, static_cast<long>(k)) + ": " + number(angle * 180 / M_PI) +
           " deg from the sample before, expected at most 90. Sample faster, or remove the jump.");
   }
   return result;
@@ -88,9 +89,19 @@ Quaterniond quaternion(const RowMatrix& table, Index k) {
 
 RowMatrix positions_of(const Poses& poses) {
   RowMatrix positions(static_cast<Index>(poses.size()), 3);
-  for (std::size_t k = 0; k < poses.size(); ++k)
-    positions.row(static_cast<Index>(k)) = poses[k].topRightCorner<3, 1>().transpose();
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const Eigen::Vector3d position = poses[k].topRightCorner<3, 1>();
+    if (!position.allFinite())
+      throw InvalidArgument(indexed("poses", static_cast<long>(k)) +
+                            ": its position is not finite. Remove or fill the gap.");
+    positions.row(static_cast<Index>(k)) = position.transpose();
+  }
   return positions;
+}
+
+RowMatrix positions_at(const Eigen::VectorXd& times, const Poses& poses) {
+  require_times(times, static_cast<Index>(poses.size()), "poses");
+  return positions_of(poses);
 }
 
 Rotations rotations_of(const Poses& poses) {
@@ -143,15 +154,15 @@ OrientationDemonstration::OrientationDemonstration(Eigen::VectorXd time, Rotatio
     : time_(std::move(time)), rotation_(std::move(rotation)), spline_(std::move(spline)) {}
 
 OrientationDemonstration OrientationDemonstration::on(const Eigen::VectorXd& time, const Spline& grid,
-                                                      const Rotations& rotations) {
-  require_count(static_cast<Index>(rotations.size()), time.size(), "rotations");
-  Rotations rotation = checked(rotations);
+                                                      const Rotations& rotations, const char* what) {
+  require_count(static_cast<Index>(rotations.size()), time.size(), what);
+  Rotations rotation = checked(rotations, what);
   Spline spline = grid.through(continuous_quaternions(rotation));
   return {time, std::move(rotation), std::move(spline)};
 }
 
 OrientationDemonstration OrientationDemonstration::with(const Rotations& rotations) const {
-  return on(time_, spline_, rotations);
+  return on(time_, spline_, rotations, "rotations");
 }
 
 OrientationDemonstration OrientationDemonstration::smoothed(Smoothing* report) const {
@@ -201,14 +212,18 @@ OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times)
 }
 
 PoseDemonstration::PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses)
-    : position_(times, positions_of(poses)),
-      orientation_(OrientationDemonstration::on(position_.time_, position_.spline_, rotations_of(poses))) {}
+    : position_(times, positions_at(times, poses)),
+      orientation_(
+          OrientationDemonstration::on(position_.time_, position_.spline_, rotations_of(poses), "poses")) {}
 
 PoseDemonstration::PoseDemonstration(Demonstration position, OrientationDemonstration orientation)
     : position_(std::move(position)), orientation_(std::move(orientation)) {}
 
 PoseDemonstration PoseDemonstration::with(const Poses& poses) const {
-  return {position_.with(positions_of(poses)), orientation_.with(rotations_of(poses))};
+  require_count(static_cast<Index>(poses.size()), size(), "poses");
+  const OrientationDemonstration& known = orientation_;
+  return {position_.with(positions_of(poses)),
+          OrientationDemonstration::on(known.time_, known.spline_, rotations_of(poses), "poses")};
 }
 
 PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* orientation) const {

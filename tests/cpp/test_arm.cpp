@@ -384,3 +384,22 @@ TEST_CASE("Threads that share an arm get the serial answers, bit for bit") {
   for (std::thread& thread : threads) thread.join();
   CHECK(wrong == std::array<int, 4>{});
 }
+
+TEST_CASE("A file that is no arm is named with the reason") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "dmp_test_no_arm.urdf";
+  std::ofstream(file) << "<robot name=\"r\"><link name=\"a\"/></robot>";
+  CHECK_THROWS_WITH_AS(Arm::from_urdf_file(file.string()), doctest::Contains("dmp_test_no_arm.urdf"),
+                       dmp::InvalidArgument);
+  std::filesystem::remove(file);
+  CHECK(Arm::from_urdf(arms::two_link()).name() == "arm");
+}
+
+TEST_CASE("Mimic joints that leave no motion are refused by name") {
+  const std::string z = R"(<axis xyz="0 0 1"/>)", at = R"(<origin xyz="1 0 0"/>)";
+  const auto mimicking = [&](const std::string& mimic) {
+    return arms::urdf(
+        {{}, {at, z, "revolute", R"(<limit lower="-1" upper="1" velocity="3" effort="50"/>)" + mimic}});
+  };
+  CHECK(refuses_with(mimicking(R"(<mimic joint="joint1" multiplier="0"/>)"), "multiplier"));
+  CHECK(refuses_with(mimicking(R"(<mimic joint="joint1" multiplier="1" offset="9"/>)"), "no range"));
+}

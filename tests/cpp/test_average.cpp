@@ -38,3 +38,21 @@ TEST_CASE("models that are not alike are refused with the option that differs") 
   const Demonstration flat(a.time(), a.position().leftCols(2));
   CHECK_THROWS_AS(average(std::vector<Dmp>{Dmp::fit(a), Dmp::fit(flat)}), InvalidArgument);
 }
+
+TEST_CASE(
+    "orientations and poses that are not alike are refused with the option that differs, or none at all") {
+  const PoseDemonstration demonstration = pose(100, 1.0);
+  DmpOptions other;
+  other.regression = Regression::ridge;
+  const auto turn = [&](const DmpOptions& options) {
+    return OrientationDmp::fit(demonstration.orientation(), options);
+  };
+  const auto both = [&](const DmpOptions& options) { return PoseDmp::fit(demonstration, options); };
+  CHECK_THROWS_WITH_AS(average(std::vector<OrientationDmp>{turn({}), turn(other)}),
+                       doctest::Contains("models[1]: options."), InvalidArgument);
+  CHECK_THROWS_WITH_AS(average(std::vector<PoseDmp>{both({}), both({}), both(other)}),
+                       doctest::Contains("models[2]: options."), InvalidArgument);
+  CHECK_THROWS_WITH_AS(average(std::vector<OrientationDmp>{}), doctest::Contains("models: none"),
+                       InvalidArgument);
+  CHECK_THROWS_WITH_AS(average(std::vector<PoseDmp>{}), doctest::Contains("models: none"), InvalidArgument);
+}

@@ -118,3 +118,84 @@ TEST_CASE("a bad one among many is named") {
         }).rfind("durations: 2 for 1 goals", 0) == 0);
   CHECK(message_of([&] { fit_each(grid(), bad, {}, -1); }).rfind("threads: -1", 0) == 0);
 }
+
+TEST_CASE("orientations and poses fit one after another as they fit alone, on a grid or each on its own") {
+  const auto turns = [](int j) { return PoseDemonstration(grid(), poses(j)).orientation().rotation(); };
+  const auto on_grid = fit_each(grid(), all<Rotations>(turns));
+  std::vector<OrientationDemonstration> orientations;
+  std::vector<PoseDemonstration> both;
+  for (int j = 0; j < kCount; ++j) {
+    const Eigen::VectorXd times = (1.0 + 0.1 * j) * grid();
+    orientations.emplace_back(times, turns(j));
+    both.emplace_back(times, poses(j));
+  }
+  const auto apart = fit_each(orientations, {}, 2);
+  const auto pose_models = fit_each(both, {}, 2);
+  for (int j = 0; j < kCount; ++j) {
+    CHECK(on_grid[j].parameters().weights ==
+          OrientationDmp::fit(OrientationDemonstration(grid(), turns(j))).parameters().weights);
+    CHECK(apart[j].parameters().weights == OrientationDmp::fit(orientations[j]).parameters().weights);
+    CHECK(pose_models[j].parameters().weights == PoseDmp::fit(both[j]).parameters().weights);
+  }
+}
+
+namespace {
+
+/// The motions handed over are those that are kept, each once, by any number of threads.
+template <class Motion, class Model, class Goals, class Equal>
+void check_handed_over(const Model& model, const Goals& goals, const Equal& equal) {
+  const Eigen::VectorXd durations = Eigen::VectorXd::LinSpaced(kCount, 0.5, 4.0);
+  const auto kept = rollout_each(model, goals, durations, 31);
+  for (const int threads : {1, 3}) {
+    std::vector<int> times_taken(kCount, 0);
+    std::vector<int> alike(kCount, 0);
+    const Take<Motion> take = [&](Eigen::Index m, const Motion& motion) {
+      ++times_taken[static_cast<std::size_t>(m)];
+      alike[static_cast<std::size_t>(m)] = equal(motion, kept[static_cast<std::size_t>(m)]);
+    };
+    rollout_each(model, goals, durations, 31, take, threads);
+    CHECK(times_taken == std::vector<int>(kCount, 1));
+    CHECK(alike == std::vector<int>(kCount, 1));
+  }
+  CHECK(message_of([&] { rollout_each(model, goals, durations, 1); }).rfind("samples: 1", 0) == 0);
+  CHECK(message_of([&] {
+          rollout_each(model, goals, durations.head(2), 31);
+        }).rfind("durations: 2 for 7 goals", 0) == 0);
+  CHECK(message_of([&] {
+          rollout_each(model, goals, -durations, 31, 2);
+        }).rfind("rollouts[0]: duration", 0) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("motions that are handed over one by one are those that rollout_each keeps") {
+  const PoseDemonstration demonstration(grid(), poses(1));
+  check_handed_over<Trajectory>(
+      Dmp::fit(demonstration.position()),
+      all<Eigen::VectorXd>([](int j) { return Eigen::VectorXd(Eigen::Vector3d(j, 1, -j)); }),
+      [](const Trajectory& a, const Trajectory& b) { return a.position == b.position; });
+  check_handed_over<OrientationTrajectory>(
+      OrientationDmp::fit(demonstration.orientation()),
+      all<Eigen::Matrix3d>([](int j) { return so3::exp({0.1 * j, 0.2, 0}); }),
+      [](const OrientationTrajectory& a, const OrientationTrajectory& b) {
+        return a.rotation == b.rotation;
+      });
+  check_handed_over<PoseTrajectory>(
+      PoseDmp::fit(demonstration), all<Eigen::Matrix4d>([](int j) { return poses(j).back(); }),
+      [](const PoseTrajectory& a, const PoseTrajectory& b) { return a.pose == b.pose; });
+}
+
+TEST_CASE("a bad one among many orientations or poses is named, whichever way they came") {
+  auto bad = all<Poses>(poses);
+  bad[2][9](0, 0) = NAN;
+  CHECK(message_of([&] { fit_each(grid(), bad, {}, 3); }).rfind("demonstrations[2]: poses[9]", 0) == 0);
+  std::vector<Rotations> turns(3, Rotations(300, Eigen::Matrix3d::Identity()));
+  turns[1][5] *= 2.0;
+  CHECK(message_of([&] { fit_each(grid(), turns); }).rfind("demonstrations[1]: rotations[5]", 0) == 0);
+  DmpOptions options;
+  options.basis_count = 0;
+  const std::vector<OrientationDemonstration> good{{grid(), Rotations(300, Eigen::Matrix3d::Identity())}};
+  CHECK(message_of([&] { fit_each(good, options); }).rfind("demonstrations[0]: options.basis_count", 0) == 0);
+  const std::vector<PoseDemonstration> both{{grid(), poses(0)}};
+  CHECK(message_of([&] { fit_each(both, options); }).rfind("demonstrations[0]: options.basis_count", 0) == 0);
+}

@@ -96,3 +96,52 @@ TEST_CASE("what is no demonstration is refused, with the sample named") {
   CHECK_THROWS_WITH_AS(PoseDemonstration(t, poses), doctest::Contains("poses[1]: its last row"),
                        InvalidArgument);
 }
+
+TEST_CASE("poses are smoothed as their positions and orientations are") {
+  const Eigen::VectorXd t = grid(60, 1.0);
+  Poses poses;
+  for (int k = 0; k < 60; ++k)
+    poses.push_back(pose_of(euler_path(t)[k], {t[k] + (k % 2 ? 1e-3 : -1e-3), 2.0, -t[k]}));
+  const PoseDemonstration demonstration(t, poses);
+  Smoothing position, orientation, alone;
+  const PoseDemonstration smooth = demonstration.smoothed(&position, &orientation);
+  CHECK(smooth.position().position() == demonstration.position().smoothed(&alone).position());
+  CHECK(position.removed == alone.removed);
+  CHECK(position.removed[0] == doctest::Approx(1e-3).epsilon(.1));
+  CHECK(smooth.orientation().rotation() == demonstration.orientation().smoothed(&alone).rotation());
+  CHECK(orientation.noise == alone.noise);
+  CHECK(demonstration.smoothed().pose() == smooth.pose());
+}
+
+TEST_CASE("bad poses are named as the poses that they came as") {
+  const Eigen::VectorXd t = grid(4, 1.0);
+  const Poses good(4, Eigen::Matrix4d::Identity());
+  const auto refused = [&](const Eigen::VectorXd& times, const Poses& poses, const char* reason) {
+    CHECK_THROWS_WITH_AS(PoseDemonstration(times, poses), doctest::Contains(reason), InvalidArgument);
+  };
+  const auto with = [&](const Eigen::Matrix4d& pose) {
+    Poses poses = good;
+    poses[2] = pose;
+    return poses;
+  };
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose(1, 3) = NAN;
+  refused(t, with(pose), "poses[2]: its position");
+  refused(t, with(pose_of(2.0 * Eigen::Matrix3d::Identity(), {0, 0, 0})), "poses[2]:");
+  refused(t, with(pose_of(so3::exp({2.0, 0, 0}), {0, 0, 0})), "poses[2]: 114.592 deg");
+  refused(grid(3, 1.0), good, "one for each of the 4 poses");
+  refused(Eigen::VectorXd::Zero(1), Poses(1, pose), "poses: 1 samples");
+  CHECK_THROWS_WITH_AS(PoseDemonstration(t, good).with(Poses(3, good[0])),
+                       doctest::Contains("poses: 3 samples"), InvalidArgument);
+}
+
+TEST_CASE("angles and positions without a meaning are refused by name") {
+  CHECK_THROWS_WITH_AS(OrientationDemonstration::from_euler(grid(4, 1.0), RowMatrix::Zero(4, 2), "ZYX"),
+                       doctest::Contains("angles: 2 columns"), InvalidArgument);
+  RowMatrix angles = RowMatrix::Zero(4, 3);
+  angles(2, 0) = NAN;
+  CHECK_THROWS_WITH_AS(OrientationDemonstration::from_euler(grid(4, 1.0), angles, "ZYX"),
+                       doctest::Contains("angles[2]"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(Demonstration(grid(4, 1.0), RowMatrix(4, 0)),
+                       doctest::Contains("positions: no columns"), InvalidArgument);
+}

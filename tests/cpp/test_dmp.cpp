@@ -422,3 +422,48 @@ TEST_CASE("Euler's rule follows a moving goal with its scale, as the exact step 
   }
   CHECK((exact.position() - simple.position()).norm() < 2e-3);
 }
+
+TEST_CASE("a spring far stiffer than its damping follows its closed form at any step") {
+  // u'' + 10 u' + 10^7 u = 0: an oscillation of 3162 rad in a unit of phase, damped with exp(-5 s).
+  const double omega = std::sqrt(1e7 - 25.0);
+  const auto place = [&](double s) {
+    return 1.0 - std::exp(-5.0 * s) * (std::cos(omega * s) + 5.0 / omega * std::sin(omega * s));
+  };
+  const Dmp stiff = spring(0, 1, 1, 10, 1e6);
+  for (const double s : {.001, .01, .1, .37, 1.0})
+    CHECK(after(stiff, s) == doctest::Approx(place(s)).epsilon(1e-9));
+}
+
+TEST_CASE("runs are values: assigned and moved they go on as the original would") {
+  const Dmp dmp = Dmp::fit(reach(100, 1.0));
+  Run run(dmp), other(Dmp::fit(helix(100, 3.0, .1, .2, 2)));
+  for (int i = 0; i < 300; ++i) run.step(1e-3);
+  const auto next_of = [](Run one) {
+    one.step(1e-2);
+    return one.position();
+  };
+  const Eigen::VectorXd next = next_of(run);
+  other = run;
+  CHECK(next_of(other) == next);
+  const Run& same = other;
+  other = same;
+  CHECK(next_of(other) == next);
+  Run moved(std::move(other));
+  CHECK(next_of(moved) == next);
+  run.reset();
+  run = std::move(moved);
+  CHECK(next_of(run) == next);
+}
+
+TEST_CASE("what ridge regression can not solve is refused with what to do") {
+  DmpOptions options;
+  options.regression = Regression::ridge;
+  options.basis_count = 4001;
+  CHECK_THROWS_WITH_AS(Dmp::fit(reach(100, 1.0), options), doctest::Contains("at most 4000"),
+                       InvalidArgument);
+  options.basis_count = 300;
+  options.ridge = 0.0;
+  options.overlap = 1e-3;
+  CHECK_THROWS_WITH_AS(Dmp::fit(reach(100, 1.0), options), doctest::Contains("options.ridge"),
+                       InvalidArgument);
+}

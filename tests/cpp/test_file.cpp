@@ -133,3 +133,99 @@ TEST_CASE("golden files of version 1 are read for ever and written again to the 
   }
   CHECK(read == 27);
 }
+
+namespace {
+
+/// A key and where it stands; the first of a text, or the last.
+struct Place {
+  std::string key;
+  std::size_t at;
+};
+Place first_of(const std::string& text, const std::string& key) {
+  return {key, text.find("\"" + key + "\":")};
+}
+Place last_of(const std::string& text, const std::string& key) {
+  return {key, text.rfind("\"" + key + "\":")};
+}
+
+std::string with_value(const std::string& text, const Place& place, const std::string& value) {
+  REQUIRE(place.at != std::string::npos);
+  const std::size_t from = place.at + place.key.size() + 4;
+  int depth = 0;
+  std::size_t to = from;
+  for (; depth > 0 || (text[to] != ',' && text[to] != '\n' && text[to] != '}'); ++to)
+    depth += text[to] == '[' || text[to] == '{' ? 1 : text[to] == ']' || text[to] == '}' ? -1 : 0;
+  return text.substr(0, from) + value + text.substr(to);
+}
+
+/// Every key that stands in a file, those of the options too.
+std::vector<Place> keys_of(const std::string& text) {
+  std::vector<Place> keys;
+  for (std::size_t at = 0; (at = text.find("\":", at)) != std::string::npos; ++at) {
+    const std::size_t open = text.rfind('"', at - 1);
+    keys.push_back({text.substr(open + 1, at - open - 1), open});
+  }
+  return keys;
+}
+
+}  // namespace
+
+TEST_CASE("a value of the wrong kind is refused by its name, in every field of every kind of model") {
+  const Model models[] = {Dmp::fit(reach(30, 1.0)), OrientationDmp::fit(rotation(30, 1.0, 1.0)),
+                          PoseDmp::fit(pose(60, 1.0))};
+  for (const Model& model : models) {
+    const std::string text = to_json(model);
+    const std::vector<Place> keys = keys_of(text);
+    CHECK(keys.size() > 25);
+    for (const Place& place : keys)
+      for (const char* value :
+           {"{}", "null", "[]", "[[]]", "[1, \"a\"]", "\"nonsense\"", "1e400", "[[1, 2], [3]]"}) {
+        CAPTURE(place.key);
+        CAPTURE(value);
+        try {
+          from_json(with_value(text, place, value));
+          FAIL_CHECK("was taken");
+        } catch (const InvalidArgument& refused) {
+          const std::string reason = refused.what();
+          CHECK((reason.find(place.key) != std::string::npos || reason.find("JSON") != std::string::npos));
+        }
+      }
+    for (const Place& place : keys) {
+      std::string without = text;
+      without.insert(place.at + 1, "_");
+      CHECK_THROWS_WITH_AS(from_json(without), doctest::Contains(place.key.c_str()), InvalidArgument);
+    }
+  }
+}
+
+TEST_CASE("numbers out of range or of another count are refused by their name") {
+  const std::string turn = to_json(OrientationDmp::fit(rotation(30, 1.0, 1.0)));
+  const std::string both = to_json(PoseDmp::fit(pose(60, 1.0)));
+  const auto refused = [](const std::string& bad, const char* reason) {
+    CHECK_THROWS_WITH_AS(from_json(bad), doctest::Contains(reason), InvalidArgument);
+  };
+  refused(with_value(turn, last_of(turn, "start_velocity"), "[1, 2]"), "start_velocity: expected 3 numbers");
+  refused(with_value(both, last_of(both, "start_twist"), "[1, 2, 3]"), "start_twist: expected 6 numbers");
+  refused(with_value(turn, last_of(turn, "start"), "[[1, 0], [0, 1]]"), "start: expected a 3 x 3 matrix");
+  refused(with_value(both, last_of(both, "goal"), "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+          "goal: expected a 4 x 4 matrix");
+  refused(with_value(turn, last_of(turn, "goal"), "[[2, 0, 0], [0, 1, 0], [0, 0, 1]]"), "goal");
+  refused(with_value(turn, last_of(turn, "weights"), "[[1, 2, 3], [1, 2]]"),
+          "weights[1]: expected 3 numbers");
+  refused(with_value(both, last_of(both, "weights"), "[[1, 2, 3]]"), "weights: 1 x 3, expected 100 x 6");
+  const std::string position = to_json(Dmp::fit(reach(30, 1.0)));
+  refused(with_value(position, last_of(position, "goal"), "[1, 2]"), "goal: 2 numbers, expected 3");
+  for (const auto& [option, least] : {std::pair("basis_count", "0"),
+                                      {"passes", "0"},
+                                      {"alpha", "0"},
+                                      {"beta", "-1"},
+                                      {"alpha_x", "0"},
+                                      {"overlap", "0"},
+                                      {"ridge", "-1"},
+                                      {"goal_filter", "-1"},
+                                      {"tempo_filter", "-1"},
+                                      {"phase_stop", "-1"},
+                                      {"basis_count", "2.5"}})
+    refused(with_value(position, first_of(position, option), least),
+            (std::string("options.") + option).c_str());
+}

@@ -140,3 +140,113 @@ TEST_CASE("nothing to hold a model against is refused") {
   CHECK_THROWS_AS(assess(dmp, {}), InvalidArgument);
   CHECK_THROWS_AS(assess(dmp, {Demonstration(grid(9, 1.0), RowMatrix::Zero(9, 2))}), InvalidArgument);
 }
+
+TEST_CASE("a report of poses is that of its positions beside that of its orientations") {
+  const PoseDemonstration demonstration = pose(300, 2.0);
+  const FitReport both = assess(PoseDmp::fit(demonstration), {demonstration});
+  const FitReport position = assess(Dmp::fit(demonstration.position()), {demonstration.position()});
+  const FitReport orientation =
+      assess(OrientationDmp::fit(demonstration.orientation()), {demonstration.orientation()});
+  REQUIRE(both.rmse.size() == 6);
+  CHECK((both.rmse.head(3) - position.rmse).norm() < 1e-12);
+  CHECK((both.rmse.tail(3) - orientation.rmse).norm() < 1e-12);
+  CHECK((both.largest.tail(3) - orientation.largest).norm() < 1e-12);
+  CHECK(both.largest_log == doctest::Approx(orientation.largest_log));
+  CHECK(both.warnings.empty());
+}
+
+TEST_CASE(
+    "the noise of orientations is found in rad about every axis, and smoothing tells what it took out") {
+  const OrientationDemonstration clean = rotation(401, 2.0, 1.5);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 2e-3);
+  Rotations shaken;
+  Poses poses;
+  for (const Eigen::Matrix3d& r : clean.rotation()) {
+    shaken.push_back(so3::exp({noise(random), noise(random), noise(random)}) * r);
+    poses.push_back(pose_of(shaken.back(), {noise(random), noise(random), noise(random)}));
+  }
+  const OrientationDemonstration noisy(clean.time(), shaken);
+  DmpOptions smooth;
+  smooth.derivatives = Derivatives::smooth;
+  const FitReport report = assess(OrientationDmp::fit(noisy, smooth), {noisy});
+  for (int d = 0; d < 3; ++d) {
+    CHECK(report.noise[d] == doctest::Approx(2e-3).epsilon(.15));
+    CHECK(report.removed[d] == doctest::Approx(2e-3).epsilon(.15));
+  }
+  const PoseDemonstration moved(clean.time(), poses);
+  const FitReport both = assess(PoseDmp::fit(moved, smooth), {moved});
+  for (int d = 0; d < 6; ++d) CHECK(both.removed[d] == doctest::Approx(2e-3).epsilon(.2));
+}
+
+TEST_CASE("each thing that spoils a model of orientations or poses is a warning that says what to do") {
+  const auto warned = [](const FitReport& report, const std::string& of) {
+    for (const std::string& warning : report.warnings)
+      if (warning.rfind(of, 0) == 0) return true;
+    return false;
+  };
+  DmpOptions few;
+  few.basis_count = 4;
+  const PoseDemonstration winding = pose(300, 2.0, 3);
+  const FitReport coarse = assess(PoseDmp::fit(winding, few), {winding}, {1e-4, 1e-3});
+  CHECK(warned(coarse, "rmse"));
+  CHECK(coarse.suggested_basis_count > 4);
+  const OrientationDemonstration turn = rotation(300, 2.0, 3.0);
+  const FitReport unreachable = assess(OrientationDmp::fit(turn, few), {turn}, {1e-15, 1e-15});
+  CHECK(unreachable.suggested_basis_count == 0);
+  CHECK(warned(unreachable, "rmse"));
+  CHECK(unreachable.warnings[0].find("More kernels do not help") != std::string::npos);
+
+  const OrientationDemonstration around = [] {  // about one axis, nearly once around
+    const Eigen::VectorXd t = grid(200, 1.0);
+    Rotations r;
+    for (const double u : t) r.push_back(so3::exp({0, 0, 1.97 * M_PI * minimum_jerk(u)}));
+    return OrientationDemonstration(t, r);
+  }();
+  CHECK(warned(assess(OrientationDmp::fit(around), {around}), "largest_log"));
+
+  DmpOptions scaled;
+  scaled.scaling = Scaling::per_axis;
+  const OrientationDemonstration loop = [] {
+    const Eigen::VectorXd t = grid(200, 1.0);
+    Rotations r;
+    Eigen::Vector3d v;
+    for (const double u : t)
+      r.push_back(so3::exp(v = Eigen::Vector3d(.5 * u, .3 * u, std::sin(2 * M_PI * u) + 1e-4 * u)));
+    return OrientationDemonstration(t, r);
+  }();
+  CHECK(warned(assess(OrientationDmp::fit(loop, scaled), {loop}), "scaling: axis 2"));
+  Poses poses;
+  for (Eigen::Index k = 0; k < loop.size(); ++k)
+    poses.push_back(
+        pose_of(loop.rotation()[static_cast<std::size_t>(k)], loop.time()[k] * Eigen::Vector3d::Ones()));
+  const PoseDemonstration both(loop.time(), poses);
+  CHECK(warned(assess(PoseDmp::fit(both, scaled), {both}), "scaling: axis 5"));
+
+  const OrientationDemonstration ends(Eigen::Vector2d(0, 1),
+                                      {Eigen::Matrix3d::Identity(), so3::exp({.5, .2, 0})});
+  CHECK(warned(assess(OrientationDmp::fit(ends), {ends}), "demonstrations[0]: two samples"));
+
+  DmpOptions singular;
+  singular.regression = Regression::ridge;
+  singular.overlap = 1e-3;
+  CHECK(warned(assess(OrientationDmp::fit(turn, singular), {turn}), "condition"));
+
+  const Demonstration noisy = noisy_helix(1e-3, 5);
+  DmpOptions many;
+  many.basis_count = 1000;
+  many.regression = Regression::ridge;
+  CHECK(warned(assess(Dmp::fit(noisy, many), {noisy}), "noise"));
+}
+
+TEST_CASE("a report of orientations or poses refuses what it can not hold a model against") {
+  const PoseDemonstration demonstration = pose(100, 1.0);
+  const OrientationDmp turn = OrientationDmp::fit(demonstration.orientation());
+  const PoseDmp both = PoseDmp::fit(demonstration);
+  CHECK_THROWS_WITH_AS(assess(turn, {}), doctest::Contains("demonstrations: none"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(assess(both, {}), doctest::Contains("demonstrations: none"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(assess(turn, {demonstration.orientation()}, {1.0, 0.0}),
+                       doctest::Contains("tolerance.angle"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(assess(both, {demonstration}, {NAN, 1.0}), doctest::Contains("tolerance.position"),
+                       InvalidArgument);
+}

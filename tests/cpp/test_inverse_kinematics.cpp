@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 #include <dmp/error.hpp>
+#include <dmp/ik_branches.hpp>
 #include <dmp/inverse_kinematics.hpp>
+#include <dmp/joint_tracker.hpp>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -414,4 +416,32 @@ TEST_CASE("Solvers of one arm in several threads give the serial answers, bit fo
     threads.emplace_back([&] { one = InverseKinematics(arm).solve_many(poses).joints == serial; });
   for (std::thread& thread : threads) thread.join();
   CHECK(same == std::array<bool, 3>{true, true, true});
+}
+
+TEST_CASE("Solvers, trackers and iterators are values: assigned and moved they answer as the original") {
+  const Arm arm = seven_joints(), other_arm = two_link();
+  InverseKinematics ik(arm), other(other_arm);
+  std::mt19937 random(21);
+  const Eigen::Matrix4d pose = arm.forward_kinematics(arms::random_joints(arm, random));
+  const Eigen::VectorXd joints = ik.solve(pose).joints;
+  other = ik;
+  CHECK(other.solve(pose).joints == joints);
+  InverseKinematics moved(std::move(other));
+  CHECK(moved.solve(pose).joints == joints);
+  CHECK(moved.options().position_tolerance == ik.options().position_tolerance);
+
+  dmp::JointTracker tracker(arm, joints), second(other_arm, Eigen::Vector2d(0.1, 0.2));
+  second = tracker;
+  CHECK(second.joints() == joints);
+  dmp::JointTracker third(std::move(second));
+  CHECK(third.track(pose, 1e-3) == tracker.track(pose, 1e-3));
+  CHECK(third.joints() == tracker.joints());
+
+  dmp::IkBranches branches(arm, pose, joints),
+      assigned(other_arm, other_arm.forward_kinematics(Eigen::VectorXd(Eigen::Vector2d(0.1, 0.2))),
+               Eigen::Vector2d(0.1, 0.2));
+  const Eigen::VectorXd first = branches.next()->joints;
+  assigned = dmp::IkBranches(arm, pose, joints);
+  dmp::IkBranches last(std::move(assigned));
+  CHECK(last.next()->joints == first);
 }

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 #include <dmp/error.hpp>
 
+#include <random>
+
 #include "motions.hpp"
 
 using namespace dmp;
@@ -191,4 +193,69 @@ TEST_CASE("several demonstrations are learned together; start and goal are means
   CHECK(dmp.duration() == doctest::Approx(1.5));
   const OrientationDemonstration truth = rotation(300, 1.5, 3.0);
   CHECK(angles(dmp.rollout_at(truth.time()).rotation, truth.rotation()).largest < .01 * kDegree);
+}
+
+TEST_CASE("differences of samples teach nearly what the spline does") {
+  const OrientationDemonstration demonstration = rotation(500, 2.0, 2.0);
+  DmpOptions differences;
+  differences.derivatives = Derivatives::gradient;
+  const auto again =
+      OrientationDmp::fit(demonstration, differences).rollout_at(demonstration.time()).rotation;
+  const auto spline = OrientationDmp::fit(demonstration).rollout_at(demonstration.time()).rotation;
+  CHECK(angles(again, demonstration.rotation()).rmse < 5e-3);
+  CHECK(angles(again, demonstration.rotation()).rmse > angles(spline, demonstration.rotation()).rmse);
+}
+
+TEST_CASE("smoothing brings a noisy rotation closer to the truth than half of its noise") {
+  const OrientationDemonstration truth = rotation(401, 2.0, 1.5);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 5e-3);
+  Rotations shaken;
+  for (const Eigen::Matrix3d& r : truth.rotation())
+    shaken.push_back(so3::exp({noise(random), noise(random), noise(random)}) * r);
+  DmpOptions smooth;
+  smooth.derivatives = Derivatives::smooth;
+  smooth.start = Start::rest;
+  const auto again = OrientationDmp::fit({truth.time(), shaken}, smooth);
+  CHECK(again.rollout({}, {}, .01).angular_velocity.row(0).norm() == 0.0);
+  smooth.start = Start::demonstrated;
+  const auto learned = OrientationDmp::fit({truth.time(), shaken}, smooth).rollout_at(truth.time()).rotation;
+  CHECK(angles(learned, truth.rotation()).rmse < .5 * std::sqrt(3.0) * 5e-3);
+}
+
+TEST_CASE("two samples of an orientation are a spring alone, which turns straight to the goal") {
+  const Eigen::Vector3d turn(.4, -.3, .2);
+  const OrientationDemonstration ends(Eigen::Vector2d(0, 1), {Eigen::Matrix3d::Identity(), so3::exp(turn)});
+  const OrientationDmp dmp = OrientationDmp::fit(ends);
+  CHECK(dmp.parameters().weights.norm() == 0.0);
+  const Eigen::Matrix3d quarter = dmp.rollout_at(Eigen::VectorXd::Constant(1, .25)).rotation[0];
+  CHECK((so3::log(quarter) - .8187601488034444 * turn).norm() < 1e-7);
+}
+
+TEST_CASE("runs of orientations are values, and a pause holds them") {
+  const OrientationDmp dmp = OrientationDmp::fit(rotation(200, 2.0, 2.0));
+  OrientationRun run(dmp), other(OrientationDmp::fit(rotation(100, 1.0, 1.0)));
+  for (int i = 0; i < 500; ++i) run.step(1e-3);
+  const auto next_of = [](OrientationRun one) {
+    one.step(1e-2);
+    return one.rotation();
+  };
+  const Eigen::Matrix3d next = next_of(run);
+  other = run;
+  CHECK(next_of(other) == next);
+  const OrientationRun& same = other;
+  other = same;
+  OrientationRun moved(std::move(other));
+  CHECK(next_of(moved) == next);
+  run.reset();
+  run = std::move(moved);
+  CHECK(next_of(run) == next);
+  run.pause();
+  for (int i = 0; i < 2000; ++i) run.step(1e-3);
+  const double held = run.phase();
+  for (int i = 0; i < 100; ++i) run.step(1e-3);
+  CHECK(run.phase() - held < 1e-6);
+  run.resume();
+  for (int i = 0; i < 6000; ++i) run.step(1e-3);
+  CHECK(so3::distance(run.rotation(), dmp.goal()) < 1e-6);
 }

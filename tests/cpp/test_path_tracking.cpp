@@ -320,3 +320,37 @@ TEST_CASE("The thorough search keeps a given start") {
     CHECK((joints.position.row(0) - q.row(0)).norm() < 1e-9);
   }
 }
+
+TEST_CASE("Where a given start finds no way, the thorough search looks for one from it, and keeps it") {
+  const Arm wide = seven_joints();
+  const Arm arm = wide.with_limits({0.6 * wide.lower(), 0.6 * wide.upper(), {}, {}});
+  InverseKinematics ik(arm);
+  std::mt19937 random(11);
+  FollowOptions thorough, quick;
+  quick.thorough = false;
+  int complete = 0, complete_at_once = 0;
+  for (int i = 0; i < 12; ++i) {
+    const RowMatrix q = far_swing(arm, random, 400);
+    thorough.start = quick.start = q.row(0).transpose();
+    const Poses poses = arm.forward_kinematics(q);
+    const JointTrajectory joints = ik.follow(seconds(400, 8.0), poses, thorough);
+    CHECK((joints.position.row(0) - q.row(0)).norm() < 1e-9);
+    CHECK(within_limits(arm, joints));
+    complete += joints.report.complete() ? 1 : 0;
+    complete_at_once += ik.follow(seconds(400, 8.0), poses, quick).report.complete() ? 1 : 0;
+  }
+  CHECK(complete >= complete_at_once);
+  MESSAGE(complete << " of 12 complete, " << complete_at_once << " without the search");
+}
+
+TEST_CASE(
+    "A start far from the first pose is brought to it as near as the steps allow, and no roadmap is made") {
+  const Arm arm = two_link();
+  const Eigen::VectorXd away = Eigen::Vector2d(1.5, 1.5);
+  FollowOptions options;
+  options.start = away;
+  const Poses poses(5, arm.forward_kinematics(Eigen::VectorXd(Eigen::Vector2d(-1.5, 0.5))));
+  const JointTrajectory joints = InverseKinematics(arm).follow(seconds(5, 1.0), poses, options);
+  CHECK_FALSE(joints.report.complete());
+  CHECK((joints.position.row(0).transpose() - away).cwiseAbs().maxCoeff() <= options.max_step + 1e-12);
+}

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <dmp/error.hpp>
 #include <dmp/spline.hpp>
 
 #include <cmath>
@@ -59,4 +60,11 @@ TEST_CASE("with fewer than six samples it is the polynomial through them") {
     CHECK(at.value(0, 0) == doctest::Approx(std::pow(0.37, count - 1)).epsilon(1e-12));
     CHECK(at.first(0, 0) == doctest::Approx((count - 1) * std::pow(0.37, count - 2)).epsilon(1e-11));
   }
+}
+
+TEST_CASE("a smoothing spline has no samples to go through, and says so") {
+  const Eigen::VectorXd times = irregular(40, 2.0);
+  const Spline smooth = Spline::smoothing(times, RowMatrix(times.array().sin()));
+  CHECK_THROWS_WITH_AS(smooth.through(RowMatrix::Zero(40, 1)), doctest::Contains("through"), InvalidArgument);
+  CHECK_THROWS_AS(Spline(times, RowMatrix(times)).through(RowMatrix::Zero(39, 1)), InvalidArgument);
 }

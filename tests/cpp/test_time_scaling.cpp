@@ -153,3 +153,36 @@ TEST_CASE("Samples that are no motion are refused by name") {
                        doctest::Contains("positions[0]"), dmp::InvalidArgument);
   CHECK_THROWS_AS(JointTrajectory::through(one(0.0), dmp::RowMatrix::Ones(2, 1)), dmp::InvalidArgument);
 }
+
+TEST_CASE("The duration factor of an effort limit is a pendulum's closed form, and holds after stretching") {
+  // 2 kg at 0.5 m about a vertical axis: effort = m l^2 qdd = 0.5 qdd; gravity has no part.
+  const std::string text =
+      "<robot name=\"p\"><link name=\"a\"/><link name=\"b\"><inertial><origin xyz=\"0.5 0 0\"/>"
+      "<mass value=\"2\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" "
+      "izz=\"0\"/></inertial></link>"
+      "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/>"
+      "<limit lower=\"-3\" upper=\"3\" velocity=\"9\" effort=\"20\"/></joint></robot>";
+  const dmp::Arm arm = dmp::Arm::from_urdf(text);
+  const JointTrajectory joints = cubic();  // |qdd| <= 6, an effort of 3 N m
+  const auto factor = [&](double effort, const Eigen::Vector3d& gravity = {0, 0, -9.81}) {
+    return dmp::duration_factor(arm, joints, one(infinity), one(infinity), one(effort), gravity);
+  };
+  CHECK(factor(0.75) == Approx(2.0));
+  CHECK(factor(12.0) == Approx(0.5));
+  CHECK(factor(infinity) == 0.0);
+  CHECK(dmp::duration_factor(arm, joints, one(0.5), one(infinity), one(0.75)) == Approx(4.0));
+  // With gravity across the axis, holding takes m g l |cos q| of the limit. What is left bounds the motion.
+  const Eigen::Vector3d across(0.0, -9.81, 0.0);
+  const JointTrajectory slow = dmp::stretched(joints, factor(12.0, across));
+  double worst = 0.0;
+  for (Eigen::Index k = 0; k < slow.time.size(); ++k)
+    worst = std::max(worst, std::abs(0.5 * slow.acceleration(k, 0) + 9.81 * std::cos(slow.position(k, 0))));
+  CHECK(worst == Approx(12.0));
+  CHECK_THROWS_WITH_AS(factor(9.0, across), doctest::Contains("stand still"), dmp::InvalidArgument);
+  CHECK_THROWS_WITH_AS(factor(9.0, {0.0, infinity, 0.0}), doctest::Contains("gravity"), dmp::InvalidArgument);
+  CHECK_THROWS_WITH_AS(factor(-1.0), doctest::Contains("effort_limit[0]"), dmp::InvalidArgument);
+  CHECK_THROWS_WITH_AS(dmp::duration_factor(arm, random_motion(1), one(1), one(1), one(1)),
+                       doctest::Contains("joints: 3 columns"), dmp::InvalidArgument);
+  CHECK(dmp::duration_factor(arm, JointTrajectory{{}, dmp::RowMatrix(0, 1), {}, {}, {}}, one(1), one(1),
+                             one(1)) == 0.0);
+}

@@ -76,9 +76,9 @@ class DMP_EXPORT OrientationDemonstration {
  private:
   friend class PoseDemonstration;
   OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline);
-  /// At the times of `grid`, whose spline goes through samples.
+  /// At the times of `grid`, whose spline goes through samples; `what` names the rotations where one is bad.
   static OrientationDemonstration on(const Eigen::VectorXd& time, const Spline& grid,
-                                     const Rotations& rotations);
+                                     const Rotations& rotations, const char* what);
   Eigen::VectorXd time_;
   Rotations rotation_;
   Spline spline_;
