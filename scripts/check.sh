@@ -9,6 +9,8 @@ mkdir -p "$logs"
 python=${PYTHON:-$root/.venv/bin/python}
 all=(lint release package matrix debian asan tsan rtsan valgrind fuzz coverage mutation python-asan wheel)
 
+# What setup.sh leaves out: clang-22, valgrind, gcovr, atheris, tools of packages.
+tools() { bash -c 'source scripts/setup.sh && install_packages_of_checks'; }
 preset() { cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1"; }
 
 check_lint() {
@@ -28,15 +30,15 @@ check_mutation() { "$python" scripts/mutation.py; }
 check_release() { preset release; }
 check_package() { cmake --preset release && cmake --build --preset release && tests/package/installed.sh build/release; }
 check_matrix() { tests/package/matrix.sh; }
-check_debian() { tests/package/debian.sh; }
+check_debian() { tools && tests/package/debian.sh; }
 check_asan() { preset asan; }
 check_tsan() { preset tsan; }
-check_rtsan() { preset rtsan; }
-check_fuzz() { PYTHON=$python scripts/fuzz.sh "${SECONDS_FUZZ:-60}"; }
-check_wheel() { scripts/wheel.sh; }
+check_rtsan() { tools && preset rtsan; }
+check_fuzz() { tools && PYTHON=$python scripts/fuzz.sh "${SECONDS_FUZZ:-60}"; }
+check_wheel() { tools && scripts/wheel.sh; }
 
 check_valgrind() {
-  cmake --preset release && cmake --build --preset release --target example_01_fit example_03_pose example_05_inverse_kinematics &&
+  tools && cmake --preset release && cmake --build --preset release --target example_01_fit example_03_pose example_05_inverse_kinematics &&
     (cd build/release/examples && for example in "01_fit" "03_pose" "05_inverse_kinematics $root/examples/arm.urdf"; do
       # shellcheck disable=SC2086
       valgrind -q --error-exitcode=9 --leak-check=full ./example_$example || exit 1
@@ -44,13 +46,13 @@ check_valgrind() {
 }
 
 check_coverage() {
-  preset coverage &&
+  mkdir -p build/coverage && find build/coverage -name '*.gcda' -delete && tools && preset coverage &&
     "$python" -m gcovr -r . build/coverage --filter cpp/src --exclude-throw-branches --exclude-unreachable-branches \
       --fail-under-line 95 --fail-under-branch 85 --print-summary
 }
 
 check_python-asan() {
-  cmake -S . -B build/python-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDMP_PYTHON=ON -DDMP_TESTS=OFF -DBUILD_SHARED_LIBS=OFF \
+  tools && cmake -S . -B build/python-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDMP_PYTHON=ON -DDMP_TESTS=OFF -DBUILD_SHARED_LIBS=OFF \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
     -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-omit-frame-pointer" -DPYBIND11_FINDPYTHON=ON \
     -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" -DPython_EXECUTABLE="$python" && cmake --build build/python-asan &&
