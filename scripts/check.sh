@@ -7,7 +7,7 @@ cd "$root"
 logs=$root/build/checks
 mkdir -p "$logs"
 python=${PYTHON:-$root/.venv/bin/python}
-all=(lint release package matrix debian asan tsan rtsan valgrind fuzz coverage mutation python-asan wheel)
+all=(lint release package matrix debian asan tsan rtsan valgrind fuzz properties coverage mutation python-asan wheel)
 
 # What setup.sh leaves out: clang-22, valgrind, gcovr, atheris, tools of packages.
 tools() { bash -c 'source scripts/setup.sh && install_packages_of_checks'; }
@@ -23,7 +23,7 @@ check_lint() {
 # The movement primitives alone: what continuous integration has the time for.
 check_asan-core() {
   cmake --preset asan -B build/asan-core -DDMP_KINEMATICS=OFF && cmake --build build/asan-core &&
-    ctest --test-dir build/asan-core --output-on-failure -E '^header_|^package$'
+    DMP_CASES=500 ctest --test-dir build/asan-core --output-on-failure -E '^header_|^package$'
 }
 
 check_mutation() { "$python" scripts/mutation.py; }
@@ -35,6 +35,10 @@ check_asan() { preset asan; }
 check_tsan() { preset tsan; }
 check_rtsan() { tools && preset rtsan; }
 check_fuzz() { tools && PYTHON=$python scripts/fuzz.sh "${SECONDS_FUZZ:-60}"; }
+check_properties() {  # 10^6 cases each; ctest takes 10^4
+  cmake --preset release && cmake --build --preset release --target test_so3_properties test_dmp_properties &&
+    DMP_CASES=1000000 build/release/tests/cpp/test_so3_properties && DMP_CASES=1000000 build/release/tests/cpp/test_dmp_properties
+}
 check_wheel() { tools && scripts/wheel.sh; }
 
 check_valgrind() {

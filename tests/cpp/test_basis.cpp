@@ -58,4 +58,9 @@ TEST_CASE("a count, decay or overlap that makes no basis is refused") {
   CHECK_THROWS_AS(GaussianBasis::equal_in_time(10, 0.0, 0.7), InvalidArgument);
   CHECK_THROWS_AS(GaussianBasis::equal_in_time(10, kAlphaX, NAN), InvalidArgument);
   CHECK_THROWS_AS(GaussianBasis::source(-3, 1.0), InvalidArgument);
+  CHECK_THROWS_WITH_AS(GaussianBasis::equal_in_time(100001, kAlphaX, 0.7),
+                       "basis_count: 100001, expected 1 to 100000 kernels.", InvalidArgument);
+  CHECK(GaussianBasis::equal_in_time(100000, kAlphaX, 0.7).count() == 100000);
+  CHECK_THROWS_AS(GaussianBasis::equal_in_time(10, 50.5, 0.7), InvalidArgument);
+  CHECK(GaussianBasis::equal_in_time(10, 50.0, 0.7).alpha_x() == 50.0);
 }
