@@ -117,6 +117,24 @@ Rotations rotations_of(const Poses& poses) {
   return rotations;
 }
 
+Rotations rotations_of(const RowMatrix& quaternions, const std::string& order) {
+  if (quaternions.cols() != 4)
+    throw InvalidArgument("quaternions: " + std::to_string(quaternions.cols()) + " columns, expected 4.");
+  if (order != "wxyz" && order != "xyzw")
+    throw InvalidArgument("order: '" + order + "' is unknown, expected wxyz or xyzw.");
+  const bool scalar_first = order == "wxyz";
+  Rotations rotations;
+  for (Index k = 0; k < quaternions.rows(); ++k) {
+    const Eigen::Vector4d q = quaternions.row(k).transpose();
+    if (!(std::abs(q.norm() - 1.0) < 1e-2))  // NaN too
+      throw InvalidArgument(indexed("quaternions", k) + ": its length is " + number(q.norm()) +
+                            ", expected 1. Remove or fill what was lost; check the columns.");
+    const Quaterniond turn = scalar_first ? Quaterniond(q[0], q[1], q[2], q[3]) : Quaterniond(q);
+    rotations.push_back(turn.normalized().toRotationMatrix());
+  }
+  return rotations;
+}
+
 }  // namespace
 
 Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions)
@@ -194,6 +212,12 @@ OrientationDemonstration OrientationDemonstration::from_euler(const Eigen::Vecto
   return {times, rotations};
 }
 
+OrientationDemonstration OrientationDemonstration::from_quaternions(const Eigen::VectorXd& times,
+                                                                    const RowMatrix& quaternions,
+                                                                    const std::string& order) {
+  return {times, rotations_of(quaternions, order)};
+}
+
 OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times) const {
   const Spline::Samples samples = spline_.sample(times);
   OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
@@ -215,6 +239,20 @@ PoseDemonstration::PoseDemonstration(const Eigen::VectorXd& times, const Poses& 
     : position_(times, positions_at(times, poses)),
       orientation_(
           OrientationDemonstration::on(position_.time_, position_.spline_, rotations_of(poses), "poses")) {}
+
+PoseDemonstration PoseDemonstration::from_quaternions(const Eigen::VectorXd& times,
+                                                      const RowMatrix& positions,
+                                                      const RowMatrix& quaternions,
+                                                      const std::string& order) {
+  if (positions.cols() != 3)
+    throw InvalidArgument("positions: " + std::to_string(positions.cols()) + " columns, expected 3 (m).");
+  require_count(quaternions.rows(), positions.rows(), "quaternions");
+  Demonstration position(times, positions);
+  const Rotations rotations = rotations_of(quaternions, order);
+  OrientationDemonstration orientation =
+      OrientationDemonstration::on(position.time_, position.spline_, rotations, "quaternions");
+  return {std::move(position), std::move(orientation)};
+}
 
 PoseDemonstration::PoseDemonstration(Demonstration position, OrientationDemonstration orientation)
     : position_(std::move(position)), orientation_(std::move(orientation)) {}

@@ -39,9 +39,8 @@ std::vector<Eigen::VectorXd> to_goals(const Array& array, const std::string& nam
 
 /// A stack as a property.
 template <class Batch>
-void def_stack(py::class_<Batch>& batch, const char* name, Stack Batch::*stack, const char* doc) {
-  batch.def_property_readonly(
-      name, [stack](const Batch& b) { return (b.*stack).array(); }, doc);
+void def_stack(py::class_<Batch>& batch, const char* name, Stack Batch::* stack, const char* doc) {
+  batch.def_property_readonly(name, [stack](const Batch& b) { return (b.*stack).array(); }, doc);
 }
 
 template <class Batch>

@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "values.hpp"
 
 namespace dmp::python {
 namespace {
@@ -17,7 +18,20 @@ void bind_trajectories(py::module_& m) {
           "velocity", [](const Trajectory& t) { return from_matrix(t.velocity); }, "(T, d) per s")
       .def_property_readonly(
           "acceleration", [](const Trajectory& t) { return from_matrix(t.acceleration); }, "(T, d) per s^2")
-      .def("__len__", [](const Trajectory& t) { return t.time.size(); });
+      .def("__len__", [](const Trajectory& t) { return t.time.size(); })
+      .def("__repr__",
+           [](const Trajectory& t) {
+             return shown_samples("Trajectory", t.time, std::to_string(t.position.cols()) + " dimensions");
+           })
+      .def(py::pickle(
+          [](const Trajectory& t) {
+            return py::make_tuple(from_vector(t.time), from_matrix(t.position), from_matrix(t.velocity),
+                                  from_matrix(t.acceleration));
+          },
+          [](const py::tuple& state) {
+            const auto table = [&](int k) { return to_matrix(state[k].cast<Array>(), "state"); };
+            return Trajectory{to_vector(state[0].cast<Array>(), "state"), table(1), table(2), table(3)};
+          }));
 
   using O = OrientationTrajectory;
   py::class_<O>(m, "OrientationTrajectory", "Orientations over time: what OrientationDmp.rollout returns.")
@@ -31,7 +45,18 @@ void bind_trajectories(py::module_& m) {
       .def_property_readonly(
           "angular_acceleration", [](const O& t) { return from_matrix(t.angular_acceleration); },
           "(T, 3) rad/s^2, world frame")
-      .def("__len__", [](const O& t) { return t.time.size(); });
+      .def("__len__", [](const O& t) { return t.time.size(); })
+      .def("__repr__", [](const O& t) { return shown_samples("OrientationTrajectory", t.time); })
+      .def(py::pickle(
+          [](const O& t) {
+            return py::make_tuple(from_vector(t.time), from_rotations(t.rotation),
+                                  from_matrix(t.angular_velocity), from_matrix(t.angular_acceleration));
+          },
+          [](const py::tuple& state) {
+            const auto array = [&](int k) { return state[k].cast<Array>(); };
+            return O{to_vector(array(0), "state"), to_rotations(array(1), "state"),
+                     to_matrix(array(2), "state"), to_matrix(array(3), "state")};
+          }));
 
   using P = PoseTrajectory;
   py::class_<P>(m, "PoseTrajectory", "Poses over time: what PoseDmp.rollout returns.")
@@ -62,7 +87,18 @@ void bind_trajectories(py::module_& m) {
       .def_property_readonly(
           "acceleration", [](const P& t) { return from_matrix(t.acceleration); },
           "(T, 6) the twist's rate, m/s^2 and rad/s^2")
-      .def("__len__", [](const P& t) { return t.time.size(); });
+      .def("__len__", [](const P& t) { return t.time.size(); })
+      .def("__repr__", [](const P& t) { return shown_samples("PoseTrajectory", t.time); })
+      .def(py::pickle(
+          [](const P& t) {
+            return py::make_tuple(from_vector(t.time), from_poses(t.pose), from_matrix(t.twist),
+                                  from_matrix(t.acceleration));
+          },
+          [](const py::tuple& state) {
+            const auto array = [&](int k) { return state[k].cast<Array>(); };
+            return P{to_vector(array(0), "state"), to_poses(array(1), "state"), to_matrix(array(2), "state"),
+                     to_matrix(array(3), "state")};
+          }));
 }
 
 void bind_orientation_demonstration(py::module_& m) {
@@ -82,6 +118,15 @@ void bind_orientation_demonstration(py::module_& m) {
           },
           py::arg("times"), py::arg("angles"), py::arg("convention"),
           "times (T,) s; angles (T, 3) rad; convention as in so3.from_euler, such as \"ZYX\".")
+      .def_static(
+          "from_quaternions",
+          [](const Array& times, const Array& quaternions, const std::string& order) {
+            return O::from_quaternions(to_vector(times, "times"), to_matrix(quaternions, "quaternions", 4),
+                                       order);
+          },
+          py::arg("times"), py::arg("quaternions"), py::arg("order"),
+          "times (T,) s; quaternions (T, 4) body -> world, of length 1 to 1e-2, in the order \"wxyz\" or "
+          "\"xyzw\"; q and -q are one rotation.")
       .def_property_readonly(
           "time", [](const O& d) { return from_vector(d.time()); }, "(T,) s, from 0")
       .def_property_readonly(
@@ -97,6 +142,7 @@ void bind_orientation_demonstration(py::module_& m) {
           "The same motion on the smoothing spline: the noise is found in the data (generalised "
           "cross-validation) and "
           "taken out; see assess().")
+      .def("__repr__", [](const O& d) { return shown_samples("OrientationDemonstration", d.time()); })
       .def("__len__", &O::size);
 }
 
@@ -127,6 +173,7 @@ void bind_demonstration(py::module_& m) {
           "The same motion on the smoothing spline: the noise is found in the data (generalised "
           "cross-validation) and taken "
           "out; see assess().")
+      .def("__repr__", [](const Demonstration& d) { return shown_samples("Demonstration", d.time()); })
       .def("__len__", &Demonstration::size);
   bind_orientation_demonstration(m);
   py::class_<PoseDemonstration>(m, "PoseDemonstration", "Poses over time as they were recorded.")
@@ -137,6 +184,16 @@ void bind_demonstration(py::module_& m) {
            "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises "
            "InvalidArgument "
            "naming the sample.")
+      .def_static(
+          "from_quaternions",
+          [](const Array& times, const Array& positions, const Array& quaternions, const std::string& order) {
+            return PoseDemonstration::from_quaternions(to_vector(times, "times"),
+                                                       to_matrix(positions, "positions", 3),
+                                                       to_matrix(quaternions, "quaternions", 4), order);
+          },
+          py::arg("times"), py::arg("positions"), py::arg("quaternions"), py::arg("order"),
+          "times (T,) s; positions (T, 3) m; quaternions (T, 4) body -> world in the order \"wxyz\" or "
+          "\"xyzw\".")
       .def_property_readonly(
           "time", [](const PoseDemonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
       .def_property_readonly(
@@ -164,6 +221,8 @@ void bind_demonstration(py::module_& m) {
           "(6,) standard deviation of the noise found in the data by generalised cross-validation: of "
           "positions "
           "[m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples")
+      .def("__repr__",
+           [](const PoseDemonstration& d) { return shown_samples("PoseDemonstration", d.time()); })
       .def("__len__", &PoseDemonstration::size);
 }
 

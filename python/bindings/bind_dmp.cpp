@@ -53,8 +53,7 @@ void bind_dmp(py::module_& m) {
   dmp.def_property_readonly("dimension", &Dmp::dimension)
       .def_property_readonly(
           "start", [](const Dmp& d) { return from_vector(d.start()); }, "(d,)")
-      .def_property_readonly(
-          "goal", [](const Dmp& d) { return from_vector(d.goal()); }, "(d,)");
+      .def_property_readonly("goal", [](const Dmp& d) { return from_vector(d.goal()); }, "(d,)");
   def_rollout(dmp, &optional_vector);
   bind_run(m);
 }

@@ -5,13 +5,14 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "options.hpp"
+#include "values.hpp"
 
 namespace dmp::python {
 namespace {
 
 void bind_track_options(py::module_& m) {
-  py::class_<TrackOptions>(m, "TrackOptions", "How a JointTracker follows.")
-      .def(py::init<>())
+  py::class_<TrackOptions> options(m, "TrackOptions", "How a JointTracker follows.");
+  options.def(py::init(&with_keywords<TrackOptions>), "The fields as keywords.")
       .def_readwrite("position_tolerance", &TrackOptions::position_tolerance,
                      "m, > 0: when a pose counts as met.")
       .def_readwrite("angle_tolerance", &TrackOptions::angle_tolerance,
@@ -25,6 +26,7 @@ void bind_track_options(py::module_& m) {
       .def_readwrite(
           "limit_pull", &TrackOptions::limit_pull,
           "rad per m that the tip moves: how much joints to spare are drawn away from their limits.");
+  def_fields(options);
 }
 
 IkStatus track(JointTracker& tracker, const Array& pose, double dt) {

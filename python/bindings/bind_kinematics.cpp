@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "options.hpp"
+#include "values.hpp"
 
 namespace dmp::python {
 namespace {
@@ -166,6 +167,34 @@ void bind_results(py::module_& m) {
       .def_readonly("solved", &IkBatch::solved, "How many poses have the status ok.");
 }
 
+py::tuple report_state(const PathReport& r) {
+  return py::make_tuple(from_vector(r.position_error), from_vector(r.angle_error), r.status, r.solved,
+                        r.missed, r.max_step, r.velocity_ratio, r.limit_margin, r.starts_tried);
+}
+
+PathReport report_of_state(const py::tuple& state) {
+  return {to_vector(state[0].cast<Array>(), "position_error"),
+          to_vector(state[1].cast<Array>(), "angle_error"),
+          state[2].cast<std::vector<IkStatus>>(),
+          state[3].cast<Eigen::Index>(),
+          state[4].cast<std::vector<std::pair<Eigen::Index, Eigen::Index>>>(),
+          state[5].cast<double>(),
+          state[6].cast<double>(),
+          state[7].cast<double>(),
+          state[8].cast<int>()};
+}
+
+py::tuple joints_state(const JointTrajectory& j) {
+  return py::make_tuple(from_vector(j.time), from_matrix(j.position), from_matrix(j.velocity),
+                        from_matrix(j.acceleration), j.joint_names, j.report);
+}
+
+JointTrajectory joints_of_state(const py::tuple& state) {
+  return {to_vector(state[0].cast<Array>(), "time"),     to_matrix(state[1].cast<Array>(), "position"),
+          to_matrix(state[2].cast<Array>(), "velocity"), to_matrix(state[3].cast<Array>(), "acceleration"),
+          state[4].cast<std::vector<std::string>>(),     state[5].cast<PathReport>()};
+}
+
 void bind_joint_trajectory(py::module_& m) {
   py::class_<PathReport>(m, "PathReport", "How well joints follow a path of T poses.")
       .def_property_readonly(
@@ -185,7 +214,8 @@ void bind_joint_trajectory(py::module_& m) {
       .def_property_readonly("complete", &PathReport::complete, "True if every pose is met.")
       .def("summary", &PathReport::summary,
            "The worst errors and the runs that were missed, in one sentence.")
-      .def("__repr__", [](const PathReport& r) { return "<PathReport: " + r.summary() + ">"; });
+      .def("__repr__", [](const PathReport& r) { return "<PathReport: " + r.summary() + ">"; })
+      .def(py::pickle(&report_state, &report_of_state));
   py::native_enum<SplineEnds>(m, "SplineEnds", "enum.Enum", "How a cubic spline ends.")
       .value("not_a_knot", SplineEnds::not_a_knot,
              "As the samples suggest: the first three lie on one cubic.")
@@ -213,7 +243,13 @@ void bind_joint_trajectory(py::module_& m) {
           "acceleration", [](const JointTrajectory& j) { return from_matrix(j.acceleration); },
           "(T, n) rad/s^2.")
       .def_readonly("joint_names", &JointTrajectory::joint_names)
-      .def_readonly("report", &JointTrajectory::report);
+      .def_readonly("report", &JointTrajectory::report)
+      .def("__len__", [](const JointTrajectory& j) { return j.time.size(); })
+      .def("__repr__",
+           [](const JointTrajectory& j) {
+             return shown_samples("JointTrajectory", j.time, std::to_string(j.position.cols()) + " joints");
+           })
+      .def(py::pickle(&joints_state, &joints_of_state));
 }
 
 void bind_ik_options(py::module_& m) {
@@ -223,8 +259,8 @@ void bind_ik_options(py::module_& m) {
       .value("kdl_lma", IkBackend::kdl_lma)
       .value("kdl_nr_jl", IkBackend::kdl_nr_jl)
       .finalize();
-  py::class_<IkOptions>(m, "IkOptions", "How InverseKinematics searches.")
-      .def(py::init<>())
+  py::class_<IkOptions> ik(m, "IkOptions", "How InverseKinematics searches.");
+  ik.def(py::init(&with_keywords<IkOptions>), "The fields as keywords.")
       .def_readwrite("backend", &IkOptions::backend)
       .def_readwrite("position_tolerance", &IkOptions::position_tolerance, "m, > 0.")
       .def_readwrite("angle_tolerance", &IkOptions::angle_tolerance, "rad, > 0.")
@@ -241,8 +277,8 @@ void bind_ik_options(py::module_& m) {
       .def_readwrite("diagnose", &IkOptions::diagnose,
                      "Search on without limits to tell why a pose is missed.")
       .def_readwrite("random_seed", &IkOptions::random_seed);
-  py::class_<FollowOptions>(m, "FollowOptions", "How InverseKinematics.follow goes about a path.")
-      .def(py::init<>())
+  py::class_<FollowOptions> follow(m, "FollowOptions", "How InverseKinematics.follow goes about a path.");
+  follow.def(py::init(&with_keywords<FollowOptions>), "The fields as keywords.")
       .def_property(
           "start",
           [](const FollowOptions& o) -> py::object {
@@ -259,6 +295,8 @@ void bind_ik_options(py::module_& m) {
       .def_readwrite("position_tolerance", &FollowOptions::position_tolerance,
                      "m: when a pose counts as met.")
       .def_readwrite("angle_tolerance", &FollowOptions::angle_tolerance, "rad: when a pose counts as met.");
+  def_fields(ik);
+  def_fields(follow);
 }
 
 Eigen::VectorXd seed_or_middle(const InverseKinematics& ik, const std::optional<Array>& seed) {

@@ -5,13 +5,14 @@
 #include <dmp/error.hpp>
 
 #include "bind.hpp"
+#include "values.hpp"
 
 namespace dmp::python {
 namespace {
 
 /// An attribute that takes an enumerator or its name.
 template <class Enum>
-void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpOptions::*member,
+void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpOptions::* member,
                     const char* doc) {
   options.def_property(
       name, [member](const DmpOptions& o) { return o.*member; },
@@ -142,6 +143,7 @@ void bind_options(py::module_& m) {
   enum_attribute(options, "derivatives", &DmpOptions::derivatives, "a Derivatives or its name");
   enum_attribute(options, "start", &DmpOptions::start, "a Start or its name");
   enum_attribute(options, "integrator", &DmpOptions::integrator, "an Integrator or its name");
+  def_fields(options);
 }
 
 }  // namespace dmp::python

@@ -56,8 +56,7 @@ void bind_pose_dmp(py::module_& m) {
   def_model<PoseDmp, PoseDemonstration>(dmp);
   dmp.def_property_readonly(
          "start", [](const PoseDmp& d) { return from_pose(d.start()); }, "(4, 4)")
-      .def_property_readonly(
-          "goal", [](const PoseDmp& d) { return from_pose(d.goal()); }, "(4, 4)");
+      .def_property_readonly("goal", [](const PoseDmp& d) { return from_pose(d.goal()); }, "(4, 4)");
   def_rollout(dmp, &optional_pose);
   bind_run(m);
 }

@@ -26,4 +26,10 @@ Options with_fields(const std::optional<Options>& options, const py::kwargs& fie
   return object.cast<Options>();
 }
 
+/// What a class of options is made from in Python: its fields as keywords.
+template <class Options>
+Options with_keywords(const py::kwargs& fields) {
+  return with_fields<Options>(std::nullopt, fields);
+}
+
 }  // namespace dmp::python

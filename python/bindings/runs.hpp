@@ -13,6 +13,7 @@
 
 #include "arrays.hpp"
 #include "options.hpp"
+#include "values.hpp"
 
 namespace dmp::python {
 
@@ -115,6 +116,13 @@ void def_model(py::class_<Dmp>& model) {
           },
           py::arg("phase"), py::arg("normalised") = false,
           "The kernels (T, N) at phases (T,); rows sum to 1 if normalised.")
+      .def("__repr__",
+           [](const py::object& model) {
+             const Dmp& d = model.cast<const Dmp&>();
+             return "<" + py::type::of(model).attr("__name__").cast<std::string>() + ": " +
+                    std::to_string(d.options().basis_count) + " kernels, " + short_number(d.duration()) +
+                    " s>";
+           })
       .def(py::pickle([](const Dmp& d) { return to_json(Model(d)); },
                       [](const std::string& text) { return std::get<Dmp>(from_json(text)); }));
 }

@@ -145,3 +145,51 @@ TEST_CASE("angles and positions without a meaning are refused by name") {
   CHECK_THROWS_WITH_AS(Demonstration(grid(4, 1.0), RowMatrix(4, 0)),
                        doctest::Contains("positions: no columns"), InvalidArgument);
 }
+
+TEST_CASE("quaternions in either order, of either sign, make the orientations that they mean") {
+  const Eigen::VectorXd t = grid(30, 1.0);
+  const Rotations r = euler_path(t);
+  RowMatrix scalar_first(30, 4), scalar_last(30, 4), positions(30, 3);
+  Poses poses;
+  for (int k = 0; k < 30; ++k) {
+    const Eigen::Quaterniond q(r[k]);
+    const double factor = (k % 3 == 0 ? -1.0 : 1.0) * (k % 2 ? 1.0 : 1.005);
+    scalar_first.row(k) << factor * q.w(), factor * q.x(), factor * q.y(), factor * q.z();
+    scalar_last.row(k) << factor * q.x(), factor * q.y(), factor * q.z(), factor * q.w();
+    positions.row(k) << t[k], 2.0, -t[k];
+    poses.push_back(pose_of(r[k], positions.row(k)));
+  }
+  const auto first = OrientationDemonstration::from_quaternions(t, scalar_first, "wxyz");
+  const auto last = OrientationDemonstration::from_quaternions(t, scalar_last, "xyzw");
+  for (int k = 0; k < 30; ++k) {
+    CHECK(so3::distance(first.rotation()[k], r[k]) < 1e-14);
+    CHECK(so3::distance(last.rotation()[k], r[k]) < 1e-14);
+  }
+  const auto both = PoseDemonstration::from_quaternions(t, positions, scalar_last, "xyzw");
+  for (int k = 0; k < 30; ++k) CHECK((both.pose()[k] - poses[k]).cwiseAbs().maxCoeff() < 1e-14);
+  const Eigen::VectorXd middle = Eigen::VectorXd::Constant(1, 0.4321);
+  CHECK(so3::distance(both.orientation().at(middle).rotation[0], first.at(middle).rotation[0]) < 1e-14);
+}
+
+TEST_CASE("quaternions that are none are refused by name") {
+  const Eigen::VectorXd t = grid(4, 1.0);
+  RowMatrix q = RowMatrix::Zero(4, 4);
+  q.col(0).setOnes();
+  const RowMatrix positions = RowMatrix::Zero(4, 3);
+  const auto refused = [&](const RowMatrix& quaternions, const char* order, const char* reason) {
+    CHECK_THROWS_WITH_AS(OrientationDemonstration::from_quaternions(t, quaternions, order),
+                         doctest::Contains(reason), InvalidArgument);
+    CHECK_THROWS_WITH_AS(PoseDemonstration::from_quaternions(t, positions, quaternions, order),
+                         doctest::Contains(reason), InvalidArgument);
+  };
+  refused(q, "zyxw", "order: 'zyxw'");
+  refused(q.leftCols(3), "wxyz", "quaternions: 3 columns");
+  q.row(2) *= 0.5;
+  refused(q, "wxyz", "quaternions[2]: its length is 0.5");
+  q(2, 1) = NAN;
+  refused(q, "wxyz", "quaternions[2]");
+  CHECK_THROWS_WITH_AS(PoseDemonstration::from_quaternions(t, RowMatrix::Zero(4, 2), q, "wxyz"),
+                       doctest::Contains("positions: 2 columns"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(PoseDemonstration::from_quaternions(t, positions, RowMatrix::Zero(3, 4), "wxyz"),
+                       doctest::Contains("quaternions: 3 samples"), InvalidArgument);
+}

@@ -111,6 +111,44 @@ TEST_CASE("targets that do not fit together are refused") {
   CHECK_THROWS_AS(basis.activations(Eigen::VectorXd::Constant(1, -50.0)), InvalidArgument);
 }
 
+TEST_CASE("targets that are not finite, in their values or their scales, are refused") {
+  const auto basis = GaussianBasis::equal_in_time(20, kAlphaX, std::log(2.0));
+  ForcingTarget target = target_of(50, [](double s) { return s; });
+  target.value(30, 0) = NAN;
+  CHECK_THROWS_WITH_AS(fit_forcing(basis, {target}, {}), doctest::Contains("not finite"), InvalidArgument);
+  target.value(30, 0) = 0.0;
+  target.scale[0] = INFINITY;
+  CHECK_THROWS_WITH_AS(fit_forcing(basis, {target}, {}), doctest::Contains("not finite"), InvalidArgument);
+}
+
+TEST_CASE("each axis has a scale of its own, and its weights are those it has alone") {
+  const auto basis = GaussianBasis::equal_in_time(20, kAlphaX, std::log(2.0));
+  for (const Regression regression : {Regression::lwr, Regression::ridge})
+    for (const double scale : {1.0, 3.0}) {
+      const ForcingTarget first = target_of(200, [](double s) { return std::sin(5 * s); });
+      ForcingTarget second = target_of(200, [](double s) { return s * s; });
+      second.scale[0] = scale;
+      ForcingTarget both{first.s, RowMatrix(200, 2), Eigen::Vector2d(1.0, scale)};
+      both.value << first.value, second.value;
+      const RowMatrix weights = fit_forcing(basis, {both}, options_of(regression));
+      const RowMatrix alone = fit_forcing(basis, {first}, options_of(regression));
+      const RowMatrix beside = fit_forcing(basis, {second}, options_of(regression));
+      CHECK((weights.col(0) - alone.col(0)).norm() < 1e-12 * alone.norm());
+      CHECK((weights.col(1) - beside.col(0)).norm() < 1e-12 * beside.norm());
+    }
+}
+
+TEST_CASE("a scale counts as zero below 1e-9, a target below 1e-9 as none") {
+  const auto basis = GaussianBasis::equal_in_time(10, kAlphaX, 0.7);
+  ForcingTarget target = target_of(100, [](double) { return 1e-9; });
+  target.scale[0] = 0.0;
+  CHECK(fit_forcing(basis, {target}, {}).allFinite());
+  target.value *= 1.5;
+  CHECK_THROWS_AS(fit_forcing(basis, {target}, {}), InvalidArgument);
+  target.scale[0] = 1e-9;
+  CHECK(fit_forcing(basis, {target}, {}).allFinite());
+}
+
 TEST_CASE("demonstrations of different scale are weighed by the square of their scale") {
   const auto basis = GaussianBasis::equal_in_time(20, kAlphaX, std::log(2.0));
   ForcingTarget large = target_of(300, [](double s) { return 2.0 * std::exp(-kAlphaX * s) * (1 + s); });

@@ -94,7 +94,7 @@ void check_options() {
 }
 
 template <class Model, class Parameters, class Value>
-void check_parameter(const std::string& entry, const Parameters& good, Value Parameters::*member) {
+void check_parameter(const std::string& entry, const Parameters& good, Value Parameters::* member) {
   check(
       entry,
       [&](const Value& value) {
@@ -124,6 +124,20 @@ TEST_CASE("demonstrations, their splines and what is asked of them") {
         return OrientationDemonstration::from_euler(t, a, "ZYX").at(t);
       },
       argument("times", times()), argument("angles", positions()));
+  RowMatrix quaternions = RowMatrix::Zero(times().size(), 4);
+  quaternions.col(0).setOnes();
+  check(
+      "OrientationDemonstration::from_quaternions",
+      [](const VectorXd& t, const RowMatrix& q) {
+        return OrientationDemonstration::from_quaternions(t, q, "wxyz").at(t);
+      },
+      argument("times", times()), argument("quaternions", quaternions));
+  check(
+      "PoseDemonstration::from_quaternions",
+      [](const VectorXd& t, const RowMatrix& y, const RowMatrix& q) {
+        return PoseDemonstration::from_quaternions(t, y, q, "wxyz").pose();
+      },
+      argument("times", times()), argument("positions", positions()), argument("quaternions", quaternions));
   check(
       "Demonstration::at", [](const VectorXd& t) { return demonstrated().position().at(t); },
       any_size("times", times()));
@@ -253,8 +267,7 @@ TEST_CASE("kernels, phases and forcing terms by themselves") {
       "source", [](int count, double alpha_x) { return GaussianBasis::source(count, alpha_x).centers(); },
       argument("count", 5), argument("alpha_x", 4.0));
   const GaussianBasis basis = GaussianBasis::equal_in_time(5, 4.0, 0.5);
-  check(
-      "activations", [&](const VectorXd& s) { return basis.activations(s, true); }, any_size("s", times()));
+  check("activations", [&](const VectorXd& s) { return basis.activations(s, true); }, any_size("s", times()));
   check(
       "ForcingTerm", [&](const RowMatrix& w) { return ForcingTerm(basis, w).evaluate(times()); },
       argument("weights", RowMatrix(RowMatrix::Ones(5, 2))));
@@ -277,8 +290,7 @@ TEST_CASE("rotations that are checked, and those of a control loop, which answer
   check(
       "require_rotation", [](const Eigen::Matrix3d& m) { return so3::require_rotation(m, "r"), m; },
       argument("r", r));
-  check(
-      "to_euler", [](const Eigen::Matrix3d& m) { return so3::to_euler(m, "ZYX"); }, argument("r", r));
+  check("to_euler", [](const Eigen::Matrix3d& m) { return so3::to_euler(m, "ZYX"); }, argument("r", r));
   for (const double size : {0.0, 5e-324, 1e-300, 1e-8, 1.0, 1e6, 1e154, 1e308, -1e308}) {
     CAPTURE(size);
     const Eigen::Vector3d v = Eigen::Vector3d(.6, 0, .8) * size;

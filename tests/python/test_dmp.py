@@ -162,7 +162,7 @@ def test_arrays_of_the_wrong_shape_are_refused_with_what_was_expected():
         Dmp.fit(helix()).rollout(goal=[1, 2])
     reflected = np.tile(np.eye(4), (9, 1, 1))
     reflected[4, 2, 2] = -1
-    with pytest.raises(InvalidArgument, match=r"rotations\[4\]: det\(R\) = -1.000"):
+    with pytest.raises(InvalidArgument, match=r"poses\[4\]: det\(R\) = -1.000"):
         dmpcpp.PoseDemonstration(np.arange(9.0), reflected)
 
 
@@ -270,3 +270,71 @@ def test_the_options_of_a_model_are_a_copy_that_can_not_change_it():
     options.alpha = 99.0
     assert model.options.alpha != 99.0
     assert np.array_equal(model.rollout().position, before)
+
+
+def test_values_print_what_they_are_and_options_can_be_read_back():
+    options = dmpcpp.DmpOptions(basis_count=50, regression="ridge", beta=4.0)
+    assert repr(options) == "DmpOptions(basis_count=50, beta=4.0, regression=Regression.ridge)"
+    assert eval(repr(options), vars(dmpcpp)) == options
+    assert repr(dmpcpp.DmpOptions()) == "DmpOptions()"
+    time = np.linspace(0.0, 2.0, 101)
+    demonstration = dmpcpp.Demonstration(time + 3.0, np.c_[np.sin(time), np.cos(time)])
+    model = dmpcpp.Dmp.fit(demonstration, options)
+    assert repr(demonstration) == "<Demonstration: 101 samples, 0 to 2 s>"
+    assert repr(model) == "<Dmp: 50 kernels, 2 s>"
+    assert repr(model.rollout(dt=0.5)) == "<Trajectory: 5 samples, 0 to 2 s, 2 dimensions>"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        dmpcpp.DmpOptions(basis_count=7, scaling="per_axis", orientation_alpha=12.0),
+        dmpcpp.IkOptions(position_tolerance=1e-7, weight=[1, 1, 1, 0, 0, 1], backend=dmpcpp.IkBackend.kdl_lma),
+        dmpcpp.FollowOptions(start=[0.1, 0.2], thorough=False),
+        dmpcpp.TrackOptions(limit_pull=0.5),
+    ],
+    ids=lambda options: type(options).__name__,
+)
+def test_options_are_values_to_compare_copy_and_send_to_other_processes(options):
+    assert pickle.loads(pickle.dumps(options)) == options
+    assert copy.copy(options) == options == copy.deepcopy(options)
+    assert options != type(options)()
+    assert options != "options"
+    changed = copy.copy(options)
+    setattr(changed, {"DmpOptions": "passes"}.get(type(options).__name__, "position_tolerance"), 3)
+    assert changed != options
+
+
+def test_motions_come_out_of_a_pickle_bit_for_bit():
+    time = np.linspace(0.0, 1.0, 40)
+    poses = np.tile(np.eye(4), (40, 1, 1))
+    poses[:, :3, 3] = np.c_[time, time**2, -time]
+    poses[:, :3, :3] = [dmpcpp.so3.exp([0.3 * t, 0.1, t]) for t in time]
+    demonstration = dmpcpp.PoseDemonstration(time, poses)
+    motions = [
+        (dmpcpp.PoseDmp.fit(demonstration).rollout(dt=0.1), "pose twist acceleration"),
+        (dmpcpp.Dmp.fit(demonstration.position).rollout(dt=0.1), "position velocity acceleration"),
+        (
+            dmpcpp.OrientationDmp.fit(demonstration.orientation).rollout(dt=0.1),
+            "rotation angular_velocity angular_acceleration",
+        ),
+        (dmpcpp.JointTrajectory.through(time, np.c_[time, time**3], ["a", "b"]), "position velocity acceleration"),
+    ]
+    for motion, names in motions:
+        again = pickle.loads(pickle.dumps(motion))
+        for name in ("time", *names.split()):
+            assert (getattr(again, name) == getattr(motion, name)).all(), name
+    assert again.joint_names == ["a", "b"]
+    assert again.report.complete == motion.report.complete
+
+
+def test_quaternions_in_either_order_make_the_same_demonstration():
+    time = np.linspace(0.0, 1.0, 20)
+    rotation = np.array([dmpcpp.so3.exp([0.3 * t, 0.1, t]) for t in time])
+    xyzw = Rotation.from_matrix(rotation).as_quat()
+    turned = dmpcpp.OrientationDemonstration.from_quaternions(time, xyzw, "xyzw")
+    np.testing.assert_allclose(turned.rotation, rotation, atol=1e-15)
+    both = dmpcpp.PoseDemonstration.from_quaternions(time, np.c_[time, time, time], -np.roll(xyzw, 1, axis=1), "wxyz")
+    np.testing.assert_allclose(both.pose[:, :3, :3], rotation, atol=1e-15)
+    with pytest.raises(InvalidArgument, match="order: 'zyx' is unknown, expected wxyz or xyzw"):
+        dmpcpp.OrientationDemonstration.from_quaternions(time, xyzw, "zyx")

@@ -37,6 +37,7 @@ TWO_LINKS = """<robot name="two"><link name="a"/><link name="b"/><link name="c"/
   <joint name="f" type="fixed"><parent link="c"/><child link="d"/><origin xyz="0.5 0 0"/></joint></robot>"""
 ARM = dmpcpp.Arm.from_urdf(TWO_LINKS)
 JOINTS = np.array([0.3, 0.7])
+QUATERNIONS = np.tile([1.0, 0.0, 0.0, 0.0], (len(TIME), 1))
 REACHED = ARM.forward_kinematics(JOINTS)
 PATH = ARM.forward_kinematics(JOINTS + np.outer(TIME, [0.3, 0.2]))
 TRAJECTORY = dmpcpp.JointTrajectory.through(TIME, JOINTS + np.outer(TIME, [0.3, 0.2]))
@@ -56,6 +57,16 @@ ENTRIES: dict[str, Entry] = {
     "OrientationDemonstration.from_euler": (
         lambda times, angles: dmpcpp.OrientationDemonstration.from_euler(times, angles, "ZYX"),
         {"times": TIME, "angles": np.c_[TIME, TIME, TIME]},
+    ),
+    "OrientationDemonstration.from_quaternions": (
+        lambda times, quaternions: dmpcpp.OrientationDemonstration.from_quaternions(times, quaternions, "wxyz"),
+        {"times": TIME, "quaternions": QUATERNIONS},
+    ),
+    "PoseDemonstration.from_quaternions": (
+        lambda times, positions, quaternions: dmpcpp.PoseDemonstration.from_quaternions(
+            times, positions, quaternions, "wxyz"
+        ),
+        {"times": TIME, "positions": POSES[:, :3, 3], "quaternions": QUATERNIONS},
     ),
     "Demonstration.at": (DEMONSTRATIONS["Dmp"].at, {"times": TIME}),
     "OrientationDemonstration.at": (DEMONSTRATIONS["OrientationDmp"].at, {"times": TIME}),
@@ -171,7 +182,8 @@ RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "start_from velocity": lambda run, value: run.start_from(place_of(run), value),
 }
 NO_NUMBERS = {"Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
-              "FollowOptions.__init__", "average", "from_json", "load", "save", "to_json"}  # fmt: skip
+              "FollowOptions.__init__", "TrackOptions.__init__", "average", "from_json", "load", "save",
+              "to_json"}  # fmt: skip
 
 
 def place_of(run: Any) -> np.ndarray:

@@ -56,6 +56,10 @@ class DMP_EXPORT OrientationDemonstration {
   /// angles (T x 3) rad; `convention` as in so3::from_euler.
   static OrientationDemonstration from_euler(const Eigen::VectorXd& times, const RowMatrix& angles,
                                              const std::string& convention);
+  /// quaternions (T x 4) body -> world, of length 1 to 1e-2, in the order "wxyz" or "xyzw"; q and -q are one
+  /// rotation. Throws InvalidArgument also for another order or length.
+  static OrientationDemonstration from_quaternions(const Eigen::VectorXd& times, const RowMatrix& quaternions,
+                                                   const std::string& order);
 
   Eigen::Index size() const noexcept { return time_.size(); }
   double duration() const noexcept { return time_[size() - 1]; }  ///< s
@@ -89,6 +93,9 @@ class DMP_EXPORT PoseDemonstration {
  public:
   /// times (T) s; poses (T) [R p; 0 1], body -> world, p in m. Throws InvalidArgument as the two above.
   PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses);
+  /// positions (T x 3) m; quaternions (T x 4) as in OrientationDemonstration::from_quaternions.
+  static PoseDemonstration from_quaternions(const Eigen::VectorXd& times, const RowMatrix& positions,
+                                            const RowMatrix& quaternions, const std::string& order);
 
   Eigen::Index size() const noexcept { return position_.size(); }
   double duration() const noexcept { return position_.duration(); }          ///< s

@@ -18,7 +18,13 @@ class Trajectory:
     """
     Positions over time: what Dmp.rollout returns.
     """
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+        ...
     def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -44,7 +50,13 @@ class OrientationTrajectory:
     """
     Orientations over time: what OrientationDmp.rollout returns.
     """
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+        ...
     def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -70,7 +82,13 @@ class PoseTrajectory:
     """
     Poses over time: what PoseDmp.rollout returns.
     """
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+        ...
     def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -112,6 +130,8 @@ class Demonstration:
         """
     def __len__(self) -> int:
         ...
+    def __repr__(self) -> str:
+        ...
     def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Trajectory:
         """
         Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.
@@ -147,11 +167,18 @@ class OrientationDemonstration:
         """
         times (T,) s; angles (T, 3) rad; convention as in so3.from_euler, such as "ZYX".
         """
+    @staticmethod
+    def from_quaternions(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], order: str) -> OrientationDemonstration:
+        """
+        times (T,) s; quaternions (T, 4) body -> world, of length 1 to 1e-2, in the order "wxyz" or "xyzw"; q and -q are one rotation.
+        """
     def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         times (T,) s, strictly increasing; rotations (T, 3, 3) body -> world. Raises InvalidArgument, naming the sample, for a reflection, a matrix not orthogonal to 1e-3, or neighbours more than pi/2 apart.
         """
     def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
         ...
     def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> OrientationTrajectory:
         """
@@ -180,11 +207,18 @@ class PoseDemonstration:
     """
     Poses over time as they were recorded.
     """
+    @staticmethod
+    def from_quaternions(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], order: str) -> PoseDemonstration:
+        """
+        times (T,) s; positions (T, 3) m; quaternions (T, 4) body -> world in the order "wxyz" or "xyzw".
+        """
     def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises InvalidArgument naming the sample.
         """
     def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
         ...
     def noise(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -295,15 +329,28 @@ class DmpOptions:
     """
     Every choice there is in a Dmp, OrientationDmp or PoseDmp. The defaults reproduce.
     """
+    __hash__: typing.ClassVar[None] = None
     @staticmethod
     def source() -> DmpOptions:
         """
         The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended.
         """
+    def __copy__(self) -> DmpOptions:
+        ...
+    def __deepcopy__(self, memo: dict) -> DmpOptions:
+        ...
+    def __eq__(self, arg0: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
     def __init__(self, **kwargs) -> None:
         """
         The fields as keywords; enumerators also by name: DmpOptions(regression="ridge").
         """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
     @property
     def alpha(self) -> float:
         """
@@ -511,6 +558,8 @@ class Dmp:
         """
     def __getstate__(self) -> str:
         ...
+    def __repr__(self) -> str:
+        ...
     def __setstate__(self, arg0: str) -> None:
         ...
     def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
@@ -670,6 +719,8 @@ class OrientationDmp:
         """
     def __getstate__(self) -> str:
         ...
+    def __repr__(self) -> str:
+        ...
     def __setstate__(self, arg0: str) -> None:
         ...
     def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
@@ -825,6 +876,8 @@ class PoseDmp:
         The same for poses (M, T, 4, 4) on one time grid, times (T,) s.
         """
     def __getstate__(self) -> str:
+        ...
+    def __repr__(self) -> str:
         ...
     def __setstate__(self, arg0: str) -> None:
         ...
@@ -1330,7 +1383,11 @@ class PathReport:
     """
     How well joints follow a path of T poses.
     """
+    def __getstate__(self) -> tuple:
+        ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def summary(self) -> str:
         """
@@ -1404,6 +1461,14 @@ class JointTrajectory:
         """
         The C2 cubic spline through positions (T, n) at times (T,) s, strictly increasing.
         """
+    def __getstate__(self) -> tuple:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1444,8 +1509,23 @@ class IkOptions:
     """
     How InverseKinematics searches.
     """
+    __hash__: typing.ClassVar[None] = None
     backend: IkBackend
-    def __init__(self) -> None:
+    def __copy__(self) -> IkOptions:
+        ...
+    def __deepcopy__(self, memo: dict) -> IkOptions:
+        ...
+    def __eq__(self, arg0: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        """
+        The fields as keywords.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
         ...
     @property
     def angle_tolerance(self) -> float:
@@ -1513,8 +1593,23 @@ class FollowOptions:
     """
     How InverseKinematics.follow goes about a path.
     """
+    __hash__: typing.ClassVar[None] = None
     respect_velocity: bool
-    def __init__(self) -> None:
+    def __copy__(self) -> FollowOptions:
+        ...
+    def __deepcopy__(self, memo: dict) -> FollowOptions:
+        ...
+    def __eq__(self, arg0: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        """
+        The fields as keywords.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
         ...
     @property
     def anchors(self) -> int:
@@ -1629,7 +1724,22 @@ class TrackOptions:
     """
     How a JointTracker follows.
     """
-    def __init__(self) -> None:
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> TrackOptions:
+        ...
+    def __deepcopy__(self, memo: dict) -> TrackOptions:
+        ...
+    def __eq__(self, arg0: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        """
+        The fields as keywords.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
         ...
     @property
     def angle_tolerance(self) -> float:
