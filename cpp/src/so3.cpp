@@ -253,7 +253,9 @@ void require_rotation(const Matrix3d& r, const std::string& name) {
 
 Matrix3d nearest_rotation(const Matrix3d& r) {
   const Eigen::JacobiSVD<Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  const Matrix3d q = svd.matrixU() * svd.matrixV().transpose();
+  // Newton's step takes the rounding of the SVD out.
+  return 0.5 * q * (3.0 * Matrix3d::Identity() - q.transpose() * q);
 }
 
 }  // namespace dmp::so3

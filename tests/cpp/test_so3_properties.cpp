@@ -115,7 +115,7 @@ TEST_CASE("the nearest rotation of what is nearly one is one, and nearer than an
     const Matrix3d rough =
         rotation(random) + Matrix3d::NullaryExpr([&] { return random.uniform(-3e-4, 3e-4); });
     const Matrix3d found = so3::nearest_rotation(rough);
-    CHECK(largest(found * found.transpose() - Matrix3d::Identity()) < 5e-15);
+    CHECK(largest(found * found.transpose() - Matrix3d::Identity()) < 1e-15);
     const Matrix3d other = so3::exp(random.magnitude(1e-7, 1e-2) * random.direction()) * found;
     CHECK((rough - found).norm() <= (rough - other).norm());
   });
