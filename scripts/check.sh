@@ -55,6 +55,9 @@ check_coverage() {
       --fail-under-line 95 --fail-under-branch 85 --print-summary
 }
 
+# The tests of what is written in C++, without processes and simulators of others.
+of_the_core=({accuracy,align,arm,arms,dmp,inverse_kinematics,joint_tracker,learning,model_files,motion,motion_alignment,path_tracking}.py
+  {refusals,so3,threads,time_optimal,urdf_changes}.py)
 check_python-asan() {
   tools && cmake -S . -B build/python-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDMP_PYTHON=ON -DDMP_TESTS=OFF -DBUILD_SHARED_LIBS=OFF \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
@@ -63,8 +66,7 @@ check_python-asan() {
     rm -rf build/python-asan/path && mkdir build/python-asan/path && cp -r python/dmpcpp build/python-asan/path/ &&
     cp build/python-asan/python/bindings/_core*.so build/python-asan/path/dmpcpp/ &&
     LD_PRELOAD="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
-      UBSAN_OPTIONS=halt_on_error=1 PYTHONPATH=build/python-asan/path "$python" -m pytest -q \
-      tests/python/test_dmp.py tests/python/test_so3.py tests/python/test_arm.py tests/python/test_inverse_kinematics.py tests/python/test_path_tracking.py tests/python/test_model_files.py tests/python/test_refusals.py
+      UBSAN_OPTIONS=halt_on_error=1 PYTHONPATH=build/python-asan/path "$python" -m pytest -q "${of_the_core[@]/#/tests/python/test_}"
 }
 
 names=("$@")
