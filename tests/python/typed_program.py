@@ -5,6 +5,7 @@ from pathlib import Path
 import dmpcpp
 import numpy as np
 import numpy.typing as npt
+from dmpcpp import export
 
 
 def learned(time: npt.NDArray[np.float64], poses: npt.NDArray[np.float64]) -> dmpcpp.PoseDmp:
@@ -31,6 +32,18 @@ def planned(path: Path) -> dmpcpp.PoseTrajectory:
     model = dmpcpp.load(str(path))
     assert isinstance(model, dmpcpp.PoseDmp)
     return model.rollout(duration=2.0, dt=0.01)
+
+
+def written(path: Path, joints: dmpcpp.JointTrajectory, plan: dmpcpp.PoseTrajectory) -> None:
+    export.write_joints(path / "joints.csv", joints)
+    export.write_joints(path / "again.csv", export.read_joints(path / "joints.csv"))
+    export.write_plan(path / "plan.npz", plan, base="base", tip="tip")
+
+
+def chosen() -> dmpcpp.DmpOptions:
+    options = dmpcpp.DmpOptions(regression="ridge")
+    options.scaling = dmpcpp.Scaling.per_axis_relative
+    return options if options == dmpcpp.DmpOptions() else dmpcpp.DmpOptions.source()
 
 
 def mistaken(model: dmpcpp.PoseDmp) -> None:

@@ -23,11 +23,25 @@ _ROUNDING = 1e-9  # of a limit; joints may lie on it
 class JointMotion(Protocol):
     """What the writers of joints take: a dmpcpp.JointTrajectory, or anything with its fields."""
 
-    time: Array
-    position: Array
-    velocity: Array
-    acceleration: Array
-    joint_names: Sequence[str]
+    @property
+    def time(self) -> Array:
+        """(T,) s."""
+
+    @property
+    def position(self) -> Array:
+        """(T, n) rad or m."""
+
+    @property
+    def velocity(self) -> Array:
+        """(T, n) per s."""
+
+    @property
+    def acceleration(self) -> Array:
+        """(T, n) per s^2."""
+
+    @property
+    def joint_names(self) -> Sequence[str]:
+        """(n,)."""
 
 
 @dataclass(frozen=True, eq=False)

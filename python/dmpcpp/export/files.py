@@ -37,9 +37,17 @@ _UNITS = "time s; pose m; twist m/s and rad/s, in the base frame"
 class PoseMotion(Protocol):
     """What `write_plan` takes: a dmpcpp.PoseTrajectory, or anything with its fields."""
 
-    time: Array
-    pose: Array
-    twist: Array
+    @property
+    def time(self) -> Array:
+        """(T,) s."""
+
+    @property
+    def pose(self) -> Array:
+        """(T, 4, 4) [R p; 0 1]."""
+
+    @property
+    def twist(self) -> Array:
+        """(T, 6) m/s, rad/s."""
 
 
 @dataclass(frozen=True, eq=False)
