@@ -201,6 +201,8 @@ TEST_CASE("a run steps through the rollout, whatever the steps, and ends") {
   while (run.step(1e-3) == Status::running) {
     ++steps;
     REQUIRE(run.position().transpose() == rollout.position.row(steps));
+    REQUIRE(run.velocity().transpose() == rollout.velocity.row(steps));
+    REQUIRE(run.acceleration().transpose() == rollout.acceleration.row(steps));
   }
   CHECK(steps == 1999);
   CHECK(run.phase() == doctest::Approx(1.0));
@@ -465,5 +467,31 @@ TEST_CASE("what ridge regression can not solve is refused with what to do") {
   options.ridge = 0.0;
   options.overlap = 1e-3;
   CHECK_THROWS_WITH_AS(Dmp::fit(reach(100, 1.0), options), doctest::Contains("options.ridge"),
+                       InvalidArgument);
+}
+
+TEST_CASE("a run that begins anew on the way begins at the first phase, wherever it was") {
+  const Dmp dmp = Dmp::fit(reach(100, 1.0));
+  Run run(dmp), fresh(dmp);
+  for (int i = 0; i < 400; ++i) run.step(1e-3);
+  const Eigen::Vector3d place(.1, .2, .3), velocity(.3, 0, -.1);
+  CHECK(run.start_from(place, velocity) == Status::running);
+  CHECK(fresh.start_from(place, velocity) == Status::running);
+  CHECK(run.phase() == 0.0);
+  CHECK(run.time() == 0.0);
+  for (int i = 0; i < 400; ++i) {
+    run.step(1e-3);
+    fresh.step(1e-3);
+    REQUIRE(run.position() == fresh.position());
+  }
+}
+
+TEST_CASE("demonstrations of different dimensions are refused with both numbers") {
+  const Demonstration line(grid(9, 1.0), RowMatrix::Zero(9, 1)), plane(grid(9, 1.0), RowMatrix::Zero(9, 2));
+  CHECK_THROWS_WITH_AS(Dmp::fit(std::vector<Demonstration>{plane, plane, line}),
+                       doctest::Contains("demonstrations[2]: 1 dimensions, expected 2 as in the first"),
+                       InvalidArgument);
+  CHECK_THROWS_WITH_AS(Dmp::fit(std::vector<Demonstration>{plane, line}),
+                       doctest::Contains("demonstrations[1]: 1 dimensions, expected 2 as in the first"),
                        InvalidArgument);
 }
