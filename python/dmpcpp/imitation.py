@@ -156,14 +156,15 @@ def imitate(
     Raises
     ------
     InvalidArgument
-        The recording can not be learned, no placement carries it, or there is no such simulator.
+        The recording can not be learned or is no motion of a hand (`motion.plausible`), no placement carries it, or
+        there is no such simulator.
     MissingDependency
         The simulator is not installed.
     """
     tell = progress or (lambda stage, done: None)
     engines = _engines(simulator)
     tell("place", 0.0)
-    recording = motion.continuous(recording)
+    recording = motion.plausible(motion.continuous(recording))
     if place is True:
         place = partial(retarget.place, seed=seed, scale=scale)
     placement = place(recording, arm, accept=clear_of_itself(arm, engines[0])) if place else None

@@ -39,8 +39,9 @@ class BodyReport:
 
     `noise_position` and `noise_angle` are standard deviations along and about one axis, see `motion.noise`; `extent` is
     the range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples; `steps` are the
-    least, the usual (median) and the largest time from one sample to the next. `refused` says
-    why the body can not be read, and then nothing else is known.
+    least, the usual (median) and the largest time from one sample to the next. `implausible` says why this can not
+    be the motion of a hand, see `motion.implausible`. `refused` says why the body can not be read, and then nothing
+    else is known.
     """
 
     name: str
@@ -57,6 +58,7 @@ class BodyReport:
     peak_speed: float = 0.0
     peak_turning: float = 0.0
     history: tuple[str, ...] = ()
+    implausible: str = ""
     refused: str = ""
 
 
@@ -223,6 +225,7 @@ def _report(recording: Recording) -> BodyReport:
         peak_speed=float((np.linalg.norm(np.diff(position, axis=0), axis=1) / steps).max()),
         peak_turning=float((turned / steps).max()),
         history=recording.history,
+        implausible=motion.implausible(recording),
     )
 
 
@@ -265,7 +268,7 @@ def _longest_gap(time: Array, there: NDArray[np.bool_]) -> float:
 def _problems(body: BodyReport) -> list[str]:
     if body.refused:
         return [f"{body.name}: {body.refused}"]
-    problems = []
+    problems = [f"{body.name}: {body.implausible}"] if body.implausible else []
     if body.longest_gap > LONGEST_GAP:
         problems.append(f"{body.name}: a gap of {body.longest_gap:.3g} s, more than {LONGEST_GAP:g} s. Crop it out.")
     if body.jumps:

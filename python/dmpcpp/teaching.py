@@ -90,11 +90,11 @@ def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, sm
     Raises
     ------
     InvalidArgument
-        There is none, or one that can not be learned.
+        There is none, or one that can not be learned or is no motion of a hand (`motion.plausible`).
     """
     if not recordings:
         raise InvalidArgument("recordings: none, expected at least one.")
-    kept = tuple(motion.continuous(recording) for recording in recordings)
+    kept = tuple(motion.plausible(motion.continuous(recording)) for recording in recordings)
     demonstrations = tuple(map(motion.demonstration, kept))
     noise = tuple(map(motion.noise, kept))
     alone = [
@@ -117,11 +117,11 @@ def placed(
     Raises
     ------
     InvalidArgument
-        No placement carries the first recording.
+        One of them is no motion of a hand (`motion.plausible`), or no placement carries the first.
     MissingDependency
         PyBullet, in whose geometry contacts are looked at, is not installed.
     """
-    whole = [motion.continuous(recording) for recording in recordings]
+    whole = [motion.plausible(motion.continuous(recording)) for recording in recordings]
     clear = clear_of_itself(arm, simulation.Bullet)
     placement = retarget.place(whole[0], arm, seed, scale=scale, accept=clear)
     return [placement.apply_to(recording) for recording in whole]

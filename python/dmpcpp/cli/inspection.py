@@ -63,7 +63,7 @@ def _print(found: Inspection) -> None:
             said = in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line
             console.print(f"{title}: {flag(name)}: {said}", markup=False, soft_wrap=True)
     for problem in found.problems:
-        console.print(problem, style="bold red", markup=False, soft_wrap=True)
+        console.print(in_flags(problem), style="bold red", markup=False, soft_wrap=True)
     verdict = "ready to be learned" if found.ok else "not ready to be learned"
     console.print(verdict, style="bold green" if found.ok else "bold red")
 

@@ -15,6 +15,7 @@ from dmpcpp.motion.averaging import Spread, mean, spread
 from dmpcpp.motion.frames import relative_to, relative_to_pose
 from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, split
 from dmpcpp.motion.outliers import outliers
+from dmpcpp.motion.plausibility import implausible, plausible
 from dmpcpp.motion.poses import complete, continuous, demonstration, poses, quaternions, turn_angles
 from dmpcpp.motion.preparation import Preparation, prepare
 from dmpcpp.motion.segmentation import cycles, segments, speed
@@ -36,11 +37,13 @@ __all__ = [
     "fill",
     "gaps",
     "gaps_in",
+    "implausible",
     "low_pass",
     "mean",
     "medoid",
     "noise",
     "outliers",
+    "plausible",
     "poses",
     "prepare",
     "quaternions",
