@@ -17,7 +17,7 @@ from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.placing import placing_options, taken_placing
 from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
-from dmpcpp.cli.tables import checks_table
+from dmpcpp.cli.tables import checks_table, note_style
 from dmpcpp.errors import MissingDependency
 
 if TYPE_CHECKING:
@@ -196,7 +196,7 @@ def _print(run: Imitation, out: Path) -> None:
 
     console = Console(highlight=False)
     for line in run.recording.history:
-        console.print(line, style="dim", soft_wrap=True, markup=False)
+        console.print(line, style=note_style(line), soft_wrap=True, markup=False)
     console.print(
         f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, "
         f"{run.slowdown:.2f} x the recorded duration"

@@ -12,6 +12,7 @@ import click
 
 from dmpcpp.cli.group import FAILED
 from dmpcpp.cli.recording_options import flag, in_flags, recording_options, taken_recording
+from dmpcpp.cli.tables import note_style
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -72,11 +73,11 @@ def _print_history(console: Console, bodies: tuple[BodyReport, ...]) -> None:
     """Print what was done while reading; what all bodies share once."""
     shared = [note for note in bodies[0].history if all(note in body.history for body in bodies)]
     for note in shared:
-        console.print(f"  {note}", markup=False, soft_wrap=True)
+        console.print(f"  {note}", style=note_style(note), markup=False, soft_wrap=True)
     for body in bodies:
         for note in body.history:
             if note not in shared:
-                console.print(f"  {body.name}: {note}", markup=False, soft_wrap=True)
+                console.print(f"  {body.name}: {note}", style=note_style(note), markup=False, soft_wrap=True)
 
 
 def _table(title: str, *columns: str) -> Table:

@@ -16,7 +16,7 @@ from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.placing import scale_range
 from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
-from dmpcpp.cli.tables import checks_table
+from dmpcpp.cli.tables import checks_table, note_style
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ def _print_lesson(lesson: Lesson, out: Path) -> None:
 
     console = Console(highlight=False)
     for line in (line for recording in lesson.recordings for line in recording.history):
-        console.print(line, style="dim", soft_wrap=True, markup=False)
+        console.print(line, style=note_style(line), soft_wrap=True, markup=False)
     table = Table(title="the model against what it was learned from", title_justify="left")
     for title in ("mm, deg", "x", "y", "z", "rot x", "rot y", "rot z"):
         table.add_column(title, justify="left" if title == "mm, deg" else "right", no_wrap=True)

@@ -20,7 +20,9 @@ _OPTIONS = (
     ),
     click.option("--unit", metavar="m|cm|mm|in|F", help="Unit of lengths; a number is metres per unit."),
     click.option("--time-unit", metavar="s|ms|us|ns|F", help="Unit of times; a number is seconds per unit."),
-    click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times."),
+    click.option(
+        "--rate", type=float, metavar="HZ", help="Samples per second, of a file without times or in place of them."
+    ),
     click.option("--up-axis", "--up", metavar="x|y|z", help="The recording's axis that points up."),
     click.option("--handedness", metavar="right|left", help="Of the recording's world; right unless given."),
     click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),

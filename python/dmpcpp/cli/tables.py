@@ -11,6 +11,11 @@ if TYPE_CHECKING:
     from dmpcpp.simulation import Check
 
 
+def note_style(note: str) -> str:
+    """How a line of a recording's history is printed: what warns is not to be overlooked."""
+    return "bold yellow" if note.startswith("WARNING") else "dim"
+
+
 def checks_table(checks: Iterable[Check]) -> Table:
     """One row a check: whether it held, its number and limit, and where."""
     from rich.markup import escape

@@ -20,7 +20,8 @@ from dmpcpp.errors import FileError, InvalidArgument, NotStated
 from dmpcpp.recordings.orientation import HELD_FIXED, from_matrices, from_quaternions, held_fixed, no_turn
 from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
-from dmpcpp.recordings.stated import Stated, times_at_rate
+from dmpcpp.recordings.sampling import Sampling, sampling
+from dmpcpp.recordings.stated import Stated
 
 __all__ = ["READER", "bodies", "read", "read_arrays"]
 
@@ -45,12 +46,14 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     poses = _chosen(_poses(arrays), stated.index)
     lost = _lost(poses, stated.missing)
     time, position, rotation, notes = _split(poses, stated, lost)
-    if time is None:
-        time = _times(arrays, len(poses), stated.rate)
+    sampled = _sampling(arrays, len(poses), stated, time)
+    notes = [*sampled.notes, *notes]
     if stated.index is not None:
         notes = [f"demonstration {stated.index} of the file", *notes]
     position = np.where(lost[:, None], np.nan, position)
-    return stated.recording(time=time, position=position, rotation=rotation, body=body, source=path.name, notes=notes)
+    return sampled.stated.recording(
+        time=sampled.time, position=position, rotation=rotation, body=body, source=path.name, notes=notes
+    )
 
 
 def _lost(poses: Array, missing: str | float | None) -> NDArray[np.bool_]:
@@ -150,16 +153,21 @@ def _check_bottom_row(poses: Array) -> None:
         raise InvalidArgument(f"poses[{k}]: last row {poses[k, 3]}, expected [0 0 0 1]. Are the matrices transposed?")
 
 
-def _times(arrays: dict[str, Array], count: int, rate: float | None) -> Array:
-    named = [name for name in _TIME_NAMES if name in arrays]
-    if rate is None and named:
-        times = arrays[named[0]]
-        if times.shape != (count,):
-            raise InvalidArgument(f"{named[0]}: shape {times.shape}, expected ({count},), one for each pose.")
-        return times
-    if rate is None and "rate" in arrays and arrays["rate"].size == 1:
-        rate = float(arrays["rate"].reshape(-1)[0])
-    return times_at_rate(count, rate)
+def _sampling(arrays: dict[str, Array], count: int, stated: Stated, column: Array | None) -> Sampling:
+    """Return when the samples were taken, by a column of the poses or an array beside them."""
+    if column is not None:
+        return sampling(count, stated, times=lambda: column)
+    named = next((name for name in _TIME_NAMES if name in arrays), None)
+    if named is not None:
+        return sampling(count, stated, times=lambda: _times(arrays, named, count))
+    rate = arrays.get("rate", np.empty(0))
+    return sampling(count, stated, rate=float(rate.reshape(-1)[0]) if rate.size == 1 else None)
+
+
+def _times(arrays: dict[str, Array], name: str, count: int) -> Array:
+    if arrays[name].shape != (count,):
+        raise InvalidArgument(f"{name}: shape {arrays[name].shape}, expected ({count},), one for each pose.")
+    return arrays[name]
 
 
 def read_arrays(path: Path) -> dict[str, np.ndarray]:

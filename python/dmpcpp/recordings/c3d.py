@@ -17,6 +17,7 @@ from dmpcpp.recordings.c3d_parameters import ByteOrder, Parameters, byte_order, 
 from dmpcpp.recordings.markers import Markers, distinct
 from dmpcpp.recordings.reader import COMMON, marker_reader
 from dmpcpp.recordings.recording import Array, Axis
+from dmpcpp.recordings.sampling import sampling
 from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import read_bytes
 from dmpcpp.recordings.world import LENGTH_UNITS, World
@@ -47,15 +48,16 @@ def markers(path: Path, stated: Stated) -> Markers:
     order = byte_order(content)
     parameters = read_parameters(content, order)
     layout = _layout(content, order, parameters)
-    rate = layout.rate if stated.rate is None else stated.rate
-    if not 0.0 < rate < 1e6:
-        raise NotStated("rate", f"rate: {rate!r} Hz, expected more than 0. State rate=...")
-    return stated.marker_set(
-        time=np.arange(layout.frames) / rate,
+    known = 0.0 < layout.rate < 1e6
+    if not known and stated.rate is None:
+        raise NotStated("rate", f"rate: {layout.rate!r} Hz, expected more than 0. State rate=...")
+    sampled = sampling(layout.frames, stated, rate=layout.rate if known else None)
+    return sampled.stated.marker_set(
+        time=sampled.time,
         position=_positions(content, order, layout),
         names=_names(parameters, layout.points),
         source=path.name,
-        notes=[],
+        notes=sampled.notes,
         world=World(
             unit=None if stated.unit is not None else _unit(parameters), time_unit="s", up_axis=_up_axis(parameters)
         ),

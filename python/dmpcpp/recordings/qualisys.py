@@ -20,8 +20,9 @@ from dmpcpp.recordings.cells import Cells, Row, split_all
 from dmpcpp.recordings.markers import Markers, distinct
 from dmpcpp.recordings.orientation import from_matrices
 from dmpcpp.recordings.reader import COMMON, Reader, no_orientation, pick_body
-from dmpcpp.recordings.recording import Array, Recording
-from dmpcpp.recordings.stated import Stated, times_at_rate
+from dmpcpp.recordings.recording import Recording
+from dmpcpp.recordings.sampling import Sampling, sampling
+from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.text import data_lines, number, read_text
 from dmpcpp.recordings.world import World
 
@@ -46,13 +47,13 @@ class _File:
     def holds_bodies(self) -> bool:
         return self.width == _BODY_WIDTH
 
-    def times(self, rate: float | None) -> Array:
-        if self.first == 2 and rate is None:
-            return self.cells.numbers([1], ["Time"])[:, 0]
+    def sampling(self, stated: Stated) -> Sampling:
+        count = len(self.cells.rows)
+        if self.first == 2:
+            return sampling(count, stated, times=lambda: self.cells.numbers([1], ["Time"])[:, 0], unit="s")
         frequency = self.header.get("FREQUENCY", [""])[0]
-        if rate is None and frequency.replace(".", "", 1).isdigit():
-            rate = float(frequency)
-        return times_at_rate(len(self.cells.rows), rate)
+        known = frequency.replace(".", "", 1).isdigit()
+        return sampling(count, stated, rate=float(frequency) if known else None)
 
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
@@ -74,13 +75,14 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     matrices = values[:, 3:].reshape(-1, 3, 3).swapaxes(1, 2)
     lost = np.isnan(values).any(axis=1) | (matrices == 0.0).all(axis=(1, 2))
     rotation, notes = from_matrices(matrices, missing=lost)
-    return stated.recording(
-        time=file.times(stated.rate),
+    sampled = file.sampling(stated)
+    return sampled.stated.recording(
+        time=sampled.time,
         position=np.where(lost[:, None], np.nan, values[:, :3]),
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=notes,
+        notes=[*sampled.notes, *notes],
         world=_WORLD,
     )
 
@@ -93,8 +95,9 @@ def markers(path: Path, stated: Stated) -> Markers:
     starts = [file.first + 3 * k for k in range(len(file.names))]
     points = file.cells.points(starts, file.names)
     points[(points == 0.0).all(axis=2)] = np.nan
-    return stated.marker_set(
-        time=file.times(stated.rate), position=points, names=file.names, source=path.name, notes=[], world=_WORLD
+    sampled = file.sampling(stated)
+    return sampled.stated.marker_set(
+        time=sampled.time, position=points, names=file.names, source=path.name, notes=sampled.notes, world=_WORLD
     )
 
 

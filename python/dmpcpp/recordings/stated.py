@@ -35,7 +35,8 @@ class Stated:
         Of the world's axes. None: right. A left-handed recording is mirrored along a horizontal axis, for which
         `up_axis` must be known.
     rate : float, optional
-        Samples per second [Hz] of a file without times.
+        Samples per second [Hz] of a file without times. Stated of one that has them, it wins: samples are taken at even
+        times, and the history tells what was left aside, with a warning where that differs by more than 20 %.
     quat_order : "xyzw", "wxyz" or None
         Order of the quaternions of an array.
     euler_order : str, optional

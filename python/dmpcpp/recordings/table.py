@@ -18,7 +18,8 @@ from dmpcpp.recordings.column_names import WHOLE, bodies_in, column, times_in, u
 from dmpcpp.recordings.pose_columns import ANGLES, POSITION, pose, stated_columns
 from dmpcpp.recordings.reader import COMMON, Reader, pick_body
 from dmpcpp.recordings.recording import Array, Recording
-from dmpcpp.recordings.stated import Stated, times_at_rate
+from dmpcpp.recordings.sampling import Sampling, sampling
+from dmpcpp.recordings.stated import Stated
 from dmpcpp.recordings.table_lines import TableLines, shown, table_lines
 from dmpcpp.recordings.text import read_text
 from dmpcpp.recordings.world import World
@@ -43,15 +44,19 @@ class _Table:
     def called(self, place: int) -> str:
         return f"column {self.header[place]!r}" if place < len(self.header) else f"column {place}"
 
-    def times(self, rate: float | None) -> Array:
-        if rate is None and self.time is None and self.header:
+    def sampling(self, stated: Stated) -> Sampling:
+        if stated.rate is None and self.time is None and self.header:
             raise NotStated(
                 "rate",
                 f"rate: the file holds no times: no column of {shown(self.header)} is called time. State the sampling "
                 "rate in Hz: rate=100, or which it is: columns={'time': ..., 'x': ..., ...}.",
             )
-        if rate is not None or self.time is None:
-            return times_at_rate(len(self.cells.rows), rate)
+        if self.time is None:
+            return sampling(len(self.cells.rows), stated)
+        return sampling(len(self.cells.rows), stated, times=self._times, unit=self.unit("time_unit", [self.time]))
+
+    def _times(self) -> Array:
+        assert self.time is not None
         cells = replace(self.cells, advice=" Where times are no numbers, state the sampling rate in Hz: rate=100.")
         return cells.numbers([self.time], [self.called(self.time)])[:, 0]
 
@@ -84,13 +89,14 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         unit = table.unit("angle_unit", [where[name] for name in ANGLES])
         stated = replace(stated, angle_unit=unit)  # type: ignore[arg-type]  # another unit is refused below
     position, rotation, notes = pose(table.cells, where, table.called, stated)
-    return stated.recording(
-        time=table.times(stated.rate),
+    sampled = table.sampling(stated)
+    return sampled.stated.recording(
+        time=sampled.time,
         position=position,
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=[*table.notes, *notes],
+        notes=[*table.notes, *sampled.notes, *notes],
         world=table.world(body, stated),
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings.recording import MIN_SAMPLES, Array, Axis
 
-__all__ = ["LENGTH_UNITS", "TIME_UNITS", "Frame", "Handedness", "World"]
+__all__ = ["LENGTH_UNITS", "LIKELY_STEP", "TIME_UNITS", "Frame", "Handedness", "World", "seconds"]
 
 Handedness = Literal["right", "left"]
 
@@ -20,7 +20,8 @@ TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _LARGEST_EXTENT = 5.0  # m; a limb's motion that is larger is more likely in another unit
 _LEAST_EXTENT = 2e-5  # m; what moves less is below the noise of every recording system: more likely another unit
 _AT_REST = 1e-9  # m; what moves less does not move at all, and its unit can not be told
-_LIKELY_STEP = (2e-4, 0.4)  # s; between samples: 1 kHz in ms is 1, 100 Hz in minutes 1.7e-4
+LIKELY_STEP = (2e-4, 0.4)
+"""s, between samples: 1 kHz in ms is 1, 100 Hz in minutes 1.7e-4."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Frame:
         self.unit = world.unit if stated_unit is None else stated_unit
         self.time_unit = world.time_unit if stated_time_unit is None else stated_time_unit
         self.length = _factor("unit", self.unit, LENGTH_UNITS)
-        self.clock = _factor("time_unit", self.time_unit, TIME_UNITS)
+        self.clock = seconds(self.time_unit)
         self.up_axis: Axis | None = world.up_axis if up_axis is None else up_axis
         self.mirror = self._mirror(handedness)
 
@@ -104,7 +105,7 @@ class Frame:
     def check_step(self, time: Array) -> None:
         """Refuse steps that suggest another unit of time; `time` in s."""
         step = float(np.median(np.diff(time)))
-        low, high = _LIKELY_STEP
+        low, high = LIKELY_STEP
         if self.time_unit is None and not low <= step <= high:
             raise InvalidArgument(
                 f"time: {step:.4g} s between samples, expected {low:g} to {high:g} s. "
@@ -142,6 +143,17 @@ class Frame:
                 f"{_called(self.unit or 'm', 'm')}. State another unit, or if it is right the unit as a number of "
                 f"metres: unit={self.length:g}."
             )
+
+
+def seconds(unit: str | float | None) -> float:
+    """Return the seconds in a unit of time; 1 where there is none.
+
+    Raises
+    ------
+    InvalidArgument
+        An unknown unit.
+    """
+    return _factor("time_unit", unit, TIME_UNITS)
 
 
 def _check_finite_times(time: Array) -> None:
