@@ -157,6 +157,9 @@ def _clear(arm: Arm, joints: JointTrajectory, simulator: Callable[..., Simulator
 def write(found: JointPlan, folder: str | PathLike[str]) -> None:
     """Write plan.npz, joints.csv and summary.json, each whole or not at all; the summary comes last.
 
+    joints.csv is what a robot may be sent, so it is written of a plan whose every check held; of any other, one that an
+    earlier plan left is removed.
+
     Raises
     ------
     FileError
@@ -164,9 +167,11 @@ def write(found: JointPlan, folder: str | PathLike[str]) -> None:
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "summary.json").unlink(missing_ok=True)
+    for stale in ("summary.json", "joints.csv"):
+        (folder / stale).unlink(missing_ok=True)
     export.write_plan(folder / "plan.npz", found.motion, base=found.arm.base, tip=found.arm.tip)
-    export.write_joints(folder / "joints.csv", found.joints)
+    if found.ok:
+        export.write_joints(folder / "joints.csv", found.joints)
     write_text(folder / "summary.json", json.dumps(found.summary(), indent=2, allow_nan=False) + "\n")
 
 

@@ -12,6 +12,10 @@ from tests.python.command import run, write_hand
 pytest.importorskip("pybullet_data")
 
 
+def names_in(folder):
+    return {path.name for path in folder.iterdir()}
+
+
 def test_a_recording_becomes_a_model_file_that_reproduces_it(tmp_path):
     write_hand(tmp_path / "hand.npz")
     done = run("fit", "hand.npz", "--quat-order", "xyzw", "--out", "reach.json", "--json", cwd=tmp_path)
@@ -58,8 +62,16 @@ def test_a_time_that_the_joints_can_not_keep_is_stretched_or_refused_as_asked(tm
     hasty = ("plan", "model.json", "--arm", "iiwa", "--duration", "0.05", "--simulator", "none", "--json")
     stretched = run(*hasty, cwd=tmp_path)
     assert stretched.returncode == 0, stretched.stderr
+    assert "joints.csv" in names_in(tmp_path / "dmpcpp-plan")
     assert json.loads(stretched.stdout)["slowdown"] > 1.0
     exact = run(*hasty, "--exact-duration", cwd=tmp_path)
     assert exact.returncode == 3
     failed = {check["name"] for check in json.loads(exact.stdout)["checks"] if not check["ok"]}
     assert failed & {"velocity_ratio", "acceleration_ratio"}
+    assert names_in(tmp_path / "dmpcpp-plan") == {
+        "config.toml",
+        "plan.npz",
+        "summary.json",
+    }  # no older joints
+    told = run(*hasty[:-1], "--exact-duration", cwd=tmp_path)
+    assert "not feasible" in told.stdout and "no joints.csv: nothing for a robot while checks fail: " in told.stdout

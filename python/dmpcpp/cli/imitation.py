@@ -207,7 +207,8 @@ def _print(run: Imitation, out: Path) -> None:
         "verified" if run.ok else "not verified", style="bold green" if run.ok else "bold red", markup=False, end=": "
     )
     console.print(_reason(run), soft_wrap=True, markup=False)
-    console.print(f"written to {out}/", soft_wrap=True, markup=False)
+    caution = "" if run.ok else "; its joints.csv is not for a robot"
+    console.print(f"written to {out}/{caution}", soft_wrap=True, markup=False)
 
 
 _ADVICE = {

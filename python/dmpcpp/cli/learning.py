@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from dmpcpp.planning import JointPlan
     from dmpcpp.teaching import Lesson
 
 
@@ -135,7 +136,7 @@ def _print_lesson(lesson: Lesson, out: Path) -> None:
     default="dmpcpp-plan",
     show_default=True,
     type=click.Path(file_okay=False, path_type=Path),
-    help="Folder for joints.csv, plan.npz, summary.json, config.toml.",
+    help="Folder for plan.npz, summary.json, config.toml and, where every check held, joints.csv.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
 def plan(
@@ -154,7 +155,7 @@ def plan(
     """Lead the motion in MODEL, a model file, to a goal in a time, and write the joints of an arm for it.
 
     Checked are inverse kinematics, joint limits and contacts of the arm with itself and the floor; `dmpcpp imitate`
-    executes under physics as well.
+    executes under physics as well. Where a check fails there is no joints.csv.
 
     Example: dmpcpp plan reach.json --arm panda --goal 0.5,0.1,0.4 --duration 3 --out plan
     """
@@ -176,18 +177,23 @@ def plan(
     if as_json:
         click.echo(json.dumps(found.summary(), indent=2, allow_nan=False))
     else:
-        from rich.console import Console
-
-        console = Console(highlight=False)
-        console.print(checks_table(found.checks))
-        console.print(
-            "planned" if found.ok else "not feasible", style="bold green" if found.ok else "bold red", end="; "
-        )
-        console.print(
-            f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted; written to {out}/", markup=False
-        )
+        _print_plan(found, out)
     if not found.ok:
         sys.exit(FAILED)
+
+
+def _print_plan(found: JointPlan, out: Path) -> None:
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    console.print(checks_table(found.checks))
+    console.print("planned" if found.ok else "not feasible", style="bold green" if found.ok else "bold red", end="; ")
+    console.print(
+        f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted; written to {out}/", markup=False
+    )
+    if not found.ok:
+        failed = ", ".join(check.name for check in found.failed)
+        console.print(f"no joints.csv: nothing for a robot while checks fail: {failed}", markup=False, soft_wrap=True)
 
 
 def _goal(text: str | None, model: Any) -> NDArray[np.float64] | None:
