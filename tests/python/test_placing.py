@@ -151,7 +151,7 @@ def test_a_robot_is_sent_nothing_that_is_not_verified(tmp_path):
     pytest.importorskip("pybullet_data")
     out = tmp_path / "out"
     done = run(
-        "imitate", hand(tmp_path), "--anchor-start", "1.5,0,0.5", "--scale", "1", "--export", "ros2", "--out", out
+        "imitate", hand(tmp_path), "--anchor-start", "0.9,0,0.6", "--scale", "1", "--export", "ros2", "--out", out
     )
     assert done.exit_code == 3, done.output
     assert "for the robot: nothing, as it is not verified" in done.output
@@ -161,6 +161,17 @@ def test_a_robot_is_sent_nothing_that_is_not_verified(tmp_path):
         for line in json.loads((out / "summary.json").read_text())["recording"]["history"]
     )
     assert not (out / "joints.yaml").exists()
+
+
+@pytest.mark.parametrize("anchor", ["start", "goal"])
+def test_an_anchor_beyond_the_arm_is_refused_with_its_distance(anchor, tmp_path):
+    pytest.importorskip("pybullet_data")
+    done = run("imitate", hand(tmp_path), f"--anchor-{anchor}", "450,0,500", "--out", tmp_path / "out")
+    assert done.exit_code == 2, done.output
+    assert (
+        f"the {anchor} of the motion at (450, 0, 500) m lies 672 m from the first joint of arm 'panda'" in done.output
+    )
+    assert "is 0.986 m long stretched out" in done.output and not (tmp_path / "out").exists()
 
 
 def test_urscript_is_refused_for_seven_joints_before_anything_runs(tmp_path):

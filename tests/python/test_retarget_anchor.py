@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from dmpcpp import arms, motion, retarget
+from dmpcpp import Arm, arms, motion, retarget
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.retarget.farthest_reach import farthest_reach
 from scipy.spatial.transform import Rotation
 
 from tests.python.motions import angle_between, reaches, screw
@@ -94,3 +95,43 @@ def test_what_is_given_is_not_searched_and_what_is_not_accepted_not_taken():
     assert found.start is not None and "followed" not in found.note
     refused = retarget.anchor_within_reach(reaches(1), arm, POSE[:3, 3], **given, accept=lambda joints: False)
     assert refused.start is None and "no candidate could be followed from end to end" in refused.note
+
+
+@pytest.mark.parametrize("on", ["start", "goal"])
+@pytest.mark.parametrize("at", [[0.0, 2.0, 0.5], POSE + np.outer([0, 1, 0, 0], [0, 0, 0, 2.0])], ids=["point", "pose"])
+def test_an_anchor_farther_away_than_the_arm_is_long_is_refused_without_a_search(on, at, panda):
+    with pytest.raises(
+        InvalidArgument, match=rf"at: the {on} of the motion at .* lies .* m from the first joint of arm"
+    ):
+        retarget.anchor_within_reach(reaches(1), panda, at, on=on)
+
+
+def test_a_shoulder_may_lie_anywhere(panda):
+    motion_of_the_hand = reaches(1)
+    shoulder = motion_of_the_hand.position[0] + [2.0, 0.0, 0.0]
+    found = retarget.anchor_within_reach(
+        motion_of_the_hand, panda, [2.4, 0.0, 0.5], on=shoulder, yaw=0.0, scale=(1.0, 1.0)
+    )
+    assert found.start is not None
+
+
+SLIDER = """<robot name="slider"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+  <joint name="f" type="fixed"><parent link="a"/><child link="b"/><origin xyz="1 0 0" rpy="0 0 1.5707963"/></joint>
+  <joint name="s" type="prismatic"><parent link="b"/><child link="c"/><origin xyz="2 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="-0.5" upper="0.3" velocity="1" effort="1"/></joint>
+  <joint name="r" type="revolute"><parent link="c"/><child link="d"/><origin xyz="0 0 0.4"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" velocity="1" effort="1"/></joint></robot>"""
+
+
+def test_the_farthest_reach_of_a_sliding_arm_is_its_stroke_and_its_links():
+    centre, radius = farthest_reach(Arm.from_urdf(SLIDER))
+    np.testing.assert_allclose(centre, [1.0, 2.0, 0.0], atol=1e-6)
+    assert radius == pytest.approx(0.9)
+
+
+def test_no_place_of_the_tip_lies_beyond_the_farthest_reach(arm):
+    centre, radius = farthest_reach(arm)
+    random = np.random.default_rng(0)
+    joints = random.uniform(arm.lower, arm.upper, (20000, arm.joint_count))
+    away = np.linalg.norm(arm.forward_kinematics(joints)[:, :3, 3] - centre, axis=1)
+    assert 0.7 * radius < away.max() <= radius + 1e-9

@@ -16,6 +16,7 @@ from dmpcpp import motion
 from dmpcpp._core import Arm, InverseKinematics
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Recording
+from dmpcpp.retarget.farthest_reach import farthest_reach
 from dmpcpp.retarget.following import EFFORT, Accept, to_follow
 from dmpcpp.retarget.placement import Placement
 
@@ -28,6 +29,7 @@ _SCALES = 5
 _YAWS = 24
 _TOOLS = 24  # random tool rotations, where none is given
 _FOLLOWED = 8  # candidates of one scale that are followed from end to end at most
+_TOLERANCE = 1e-3  # m; of the figures in a robot's description
 _FEW = 5  # every fifth of the coarse poses is looked at first: most candidates miss one of them
 
 
@@ -145,10 +147,11 @@ def anchor_within_reach(
     Raises
     ------
     InvalidArgument
-        What `anchor` refuses, or a range of scale that is empty.
+        What `anchor` refuses, a range of scale that is empty, or a start or goal farther away than the arm is long.
     """
     if not 0.0 < scale[0] <= scale[1] < np.inf:
         raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
+    _within_length(arm, at, on)
     scales = np.geomspace(scale[1], scale[0], _SCALES).tolist() if scale[0] < scale[1] else [scale[0]]
     turns = _turns(at, yaw, tool_rotation, np.random.default_rng(seed))
     candidates = _candidates(recording, at, on, scales, turns)
@@ -174,6 +177,24 @@ def _sample(on: Anchor | ArrayLike) -> int | None:
     if on not in ("start", "goal"):
         raise InvalidArgument(f"on: {on!r}, expected 'start', 'goal' or a point (3,).")
     return 0 if on == "start" else -1
+
+
+def _within_length(arm: Arm, at: ArrayLike, on: Anchor | ArrayLike) -> None:
+    """Refuse a start or goal that no joints bring the tip to: searching it would take minutes."""
+    if not isinstance(on, str):
+        return  # a shoulder is not a place of the tip
+    at = np.asarray(at, dtype=np.float64)
+    point = at[:3, 3] if at.shape == (4, 4) else at
+    if point.shape != (3,):
+        return  # which `anchor` names
+    centre, most = farthest_reach(arm)
+    away = float(np.linalg.norm(point - centre))
+    if away > most + _TOLERANCE:
+        where = ", ".join(f"{x:g}" for x in point)
+        raise InvalidArgument(
+            f"at: the {on} of the motion at ({where}) m lies {away:.3g} m from the first joint of arm {arm.name!r}, "
+            f"which is {most:.3g} m long stretched out. State a point nearer to it, in m in the frame of {arm.base!r}."
+        )
 
 
 def _candidates(
