@@ -9,7 +9,10 @@ from pathlib import Path
 import dmpcpp
 import numpy as np
 import pytest
-from dmpcpp import export
+from click.testing import CliRunner
+from dmpcpp import arms, export, recordings
+from dmpcpp.cli import main
+from dmpcpp.cli.config import save_config
 
 pytest.importorskip("pybullet_data")
 
@@ -62,6 +65,32 @@ def test_demo_is_verified(arm, tmp_path):
     again = model.rollout_at(plan.time, duration=duration)
     assert np.abs(again.pose - plan.pose).max() < 1e-9
     assert (out / "picture.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("stated", "folder"),
+    [
+        ((), "dmpcpp-demo"),
+        (("--arm", "iiwa"), "dmpcpp-demo-iiwa"),
+        (("--clip", "punch", "--body", "left_wrist"), "dmpcpp-demo-punch-left_wrist"),
+        (("--arm", "my/panda.urdf", "--base", "a", "--tip", "b"), "dmpcpp-demo-panda.urdf-a-b"),
+        (("--clip", "punch", "--out", "mine"), "mine"),
+    ],
+)
+def test_every_demo_has_a_folder_of_its_own_and_its_config_says_which(stated, folder, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(recordings, "clip", lambda *_: None)
+    monkeypatch.setattr(arms, "load", lambda *_: None)
+
+    def carried_out(recording, arm, *, out, **_):
+        out.mkdir()
+        save_config(out / "config.toml")
+
+    monkeypatch.setattr("dmpcpp.cli.imitation._carry_out", carried_out)
+    done = CliRunner().invoke(main, ["demo", *stated])
+    assert done.exit_code == 0, done.output
+    assert [path.name for path in tmp_path.iterdir()] == [folder]
+    assert f'out = "{tmp_path / folder}"' in (tmp_path / folder / "config.toml").read_text()
 
 
 @pytest.mark.parametrize("simulator, arm", [("both", "panda"), ("mujoco", "iiwa")])

@@ -26,13 +26,18 @@ if TYPE_CHECKING:
     from dmpcpp.recordings import Recording
 
 
-def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+_DEMO = {"clip": "dance_b", "body": "right_hand", "arm": "panda"}
+
+
+def _run_options(
+    default_out: str | None, shown: str | bool = True
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
         options = (
             click.option(
                 "--out",
                 default=default_out,
-                show_default=True,
+                show_default=shown,
                 type=click.Path(file_okay=False, path_type=Path),
                 help="Folder for the model, plan, joints, execution, picture, summary, config and report.",
             ),
@@ -74,18 +79,27 @@ def _run_options(default_out: str) -> Callable[[Callable[..., None]], Callable[.
 
 
 @click.command()
-@click.option("--clip", default="dance_b", show_default=True, help="One of the clips that ship with PyBullet.")
-@click.option("--body", default="right_hand", show_default=True, help="Whose motion.")
+@click.option("--clip", default=_DEMO["clip"], show_default=True, help="One of the clips that ship with PyBullet.")
+@click.option("--body", default=_DEMO["body"], show_default=True, help="Whose motion.")
 @arm_options
-@_run_options("dmpcpp-demo")
-def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
+@_run_options(None, "dmpcpp-demo, followed by the clip, body and arm that were stated otherwise")
+@click.pass_context
+def demo(context: click.Context, clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
     """Show the main job on a human motion that every installation has.
 
     Example: dmpcpp demo --clip dance_b --arm iiwa --out dance
     """
     from dmpcpp import arms, recordings
 
+    if run["out"] is None:
+        run["out"] = context.params["out"] = _demo_folder({"clip": clip, "body": body, "arm": arm}, base, tip)
     _carry_out(recordings.clip(clip, body), arms.load(arm, base, tip), **run)
+
+
+def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> Path:
+    """Return a folder of its own for every clip, body and arm; dmpcpp-demo for what is shown unless stated."""
+    other = [Path(value).name for name, value in chosen.items() if value != _DEMO[name]]
+    return Path("-".join(["dmpcpp-demo", *other, *filter(None, (base, tip))]))
 
 
 @click.command()
