@@ -8,11 +8,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,20 @@ from dmpcpp.recordings.stated import Stated
 
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 
+_T = TypeVar("_T")
+
+_STAND_INS: dict[str, Any] = {
+    "unit": 1.0,
+    "rate": 100.0,
+    "up_axis": "z",
+    "quat_order": "xyzw",
+    "euler_order": "ZYX",
+    "angle_unit": "rad",
+    "index": 0,
+    "fixed_orientation": True,
+}
+"""What is taken for granted to see what else is to be stated; nothing else comes of it."""
+
 _JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn can not be told from its reverse
 
 
@@ -38,8 +53,9 @@ class BodyReport:
     """What one body's recording is like; lengths in m, times in s, angles in rad.
 
     `noise_position` and `noise_angle` are standard deviations along and about one axis, see `motion.noise`; `extent` is
-    the range along x, y and z; `jumps` counts turns of more than 90 deg between neighbouring samples; `steps` are the
-    least, the usual (median) and the largest time from one sample to the next. `implausible` says why this can not
+    the range along x, y and z; `missing` counts samples that the file marks as lost, `skipped` those that were never
+    written, see `motion.skipped`; `jumps` counts turns of more than 90 deg between neighbouring samples; `steps` are
+    the least, the usual (median) and the largest time from one sample to the next. `implausible` says why this can not
     be the motion of a hand, see `motion.implausible`. `refused` says why the body can not be read, and then nothing
     else is known.
     """
@@ -49,6 +65,7 @@ class BodyReport:
     duration: float = 0.0
     rate: float = 0.0
     missing: int = 0
+    skipped: int = 0
     longest_gap: float = 0.0
     jumps: int = 0
     noise_position: float = 0.0
@@ -130,49 +147,94 @@ def inspect(
 ) -> Inspection:
     """Look into a file; what it does not say is reported rather than refused.
 
-    Parameters and errors are those of `recordings.load`, but for what must be stated: without it, the report says so.
-    Without `body` all bodies are looked at.
+    Parameters and errors are those of `recordings.load`, but for what must be stated: without it, the report says so,
+    of all at once that can be known. Without `body` all bodies are looked at.
     """
     path = Path(path)
     try:
         reader, said = prepared(path, format, stated)
     except NotStated as error:
-        return Inspection(path.name, "unknown", needed=_needed(error))
-    try:
-        held = reader.call(reader.bodies, path, said)
-        if markers is not None or (not held and reader.markers is not None):
-            return _of_markers(reader, path, said, body, markers)
-    except NotStated as error:
-        return Inspection(path.name, reader.name, needed=_needed(error))
-    return _of_bodies(reader, path, said, held, body)
+        return Inspection(path.name, "unknown", needed=dict.fromkeys(error.names, str(error)))
+    held = _attempt(lambda said: reader.call(reader.bodies, path, said), said)
+    if held.result is None:
+        return Inspection(path.name, reader.name, needed=held.needed)
+    if markers is not None or (not held.result and reader.markers is not None):
+        return _of_markers(reader, path, said, body, markers)
+    return _of_bodies(reader, path, said, held.result, body)
+
+
+@dataclass(frozen=True)
+class _Attempt(Generic[_T]):
+    """What a reader came to, where need be with stand-ins for what is to be stated, to see what else is.
+
+    `result` is None where nothing can stand in, or where it is `refused`.
+    """
+
+    result: _T | None
+    needed: dict[str, str]
+    refused: str = ""
+
+
+def _attempt(read: Callable[[Stated], _T], said: Stated) -> _Attempt[_T]:
+    needed: dict[str, str] = {}
+    while True:
+        try:
+            return _Attempt(read(said), needed)
+        except NotStated as error:
+            needed |= dict.fromkeys(error.names, str(error))
+            name = next((name for name in error.names if name in _STAND_INS), None)
+            if name is None or getattr(said, name) == _STAND_INS[name]:
+                return _Attempt(None, needed)
+            said = replace(said, **{name: _STAND_INS[name]})
+        except InvalidArgument as error:
+            if not needed:
+                raise
+            return _Attempt(None, needed, str(error))
 
 
 def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], body: str | None) -> Inspection:
     reports, needed, assumed = [], {}, {}
     for name in held if body is None else (body,):
         try:
-            recording = reader.call(reader.read, path, name, said)
-        except NotStated as error:
-            needed.update(_needed(error))
-            break
+            found = _attempt(partial(_recording, reader, path, name), said)
         except InvalidArgument as error:
             if name not in held or len(held) == 1 or body is not None:
                 raise
             reports.append(BodyReport(name, refused=str(error)))
-        else:
-            reports.append(_report(recording))
-            assumed = _assumed(recording.up_axis, recording.history)
+            continue
+        needed |= found.needed
+        if found.refused:
+            reports.append(BodyReport(name, refused=found.refused))
+        if found.result is not None:
+            known = _assumed(found.result.up_axis, found.result.history)
+            assumed = {what: value for what, value in known.items() if what not in needed}
+            if not found.needed:  # with a stand-in for a unit, say, its figures would be wrong
+                reports.append(_report(found.result))
+        if found.needed:
+            break  # the other bodies of the file lack the same
     if body is None and len(held) > 1:
         needed["body"] = f"the file holds several: {', '.join(held)}"
     return Inspection(path.name, reader.name, held, tuple(reports), needed=needed, assumed=assumed)
 
 
+def _recording(reader: Reader, path: Path, name: str, said: Stated) -> Recording:
+    return reader.call(reader.read, path, name, said)
+
+
 def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, names: Sequence[str] | None) -> Inspection:
     if reader.markers is None:
         raise InvalidArgument(f"{path.name}: markers: the format {reader.name!r} holds none.")
-    found = reader.call(reader.markers, path, said)
+    attempt = _attempt(partial(reader.call, reader.markers, path), said)
+    found, needed = attempt.result, attempt.needed
+    if found is None:
+        refused = (BodyReport(path.name, refused=attempt.refused),) if attempt.refused else ()
+        return Inspection(path.name, reader.name, bodies=refused, needed=needed)
+    assumed = {what: v for what, v in _assumed(found.up_axis, found.history).items() if what not in needed}
+    if needed:  # with a stand-in for a unit, say, their figures would be wrong
+        if names is None:
+            needed["markers"] = f"three or more that sit on one rigid body, of: {', '.join(found.names)}"
+        return Inspection(path.name, reader.name, needed=needed, assumed=assumed)
     reports = tuple(_marker(found, k) for k in range(len(found.names)))
-    needed = {}
     bodies: tuple[BodyReport, ...] = ()
     if names is None:
         needed["markers"] = "three or more that sit on one rigid body"
@@ -187,12 +249,8 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
         duration=found.duration,
         rate=found.rate,
         needed=needed,
-        assumed=_assumed(found.up_axis, found.history),
+        assumed=assumed,
     )
-
-
-def _needed(error: NotStated) -> dict[str, str]:
-    return dict.fromkeys(error.names, str(error))
 
 
 def _assumed(up_axis: str | None, history: tuple[str, ...]) -> dict[str, str]:
@@ -216,6 +274,7 @@ def _report(recording: Recording) -> BodyReport:
         duration=recording.duration,
         rate=recording.rate,
         missing=int((~there).sum()),
+        skipped=motion.skipped(recording.time),
         longest_gap=_longest_gap(recording.time, there),
         jumps=int((turned > _JUMP).sum()),
         noise_position=noise.position,

@@ -104,7 +104,7 @@ def _bodies_table(found: Inspection) -> Table:
             str(body.samples),
             f"{body.duration:.2f}",
             f"{body.rate:.1f}",
-            str(body.missing),
+            str(body.missing + body.skipped),
             f"{body.longest_gap:.2f}",
             str(body.jumps),
             f"{1e3 * body.noise_position:.2g}",

@@ -13,7 +13,7 @@ out. Every other step asks for whole recordings.
 from dmpcpp.motion.alignment import aligned, medoid
 from dmpcpp.motion.averaging import Spread, mean, spread
 from dmpcpp.motion.frames import relative_to, relative_to_pose
-from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, split
+from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, skipped, split
 from dmpcpp.motion.outliers import outliers
 from dmpcpp.motion.plausibility import implausible, plausible
 from dmpcpp.motion.poses import complete, continuous, demonstration, poses, quaternions, turn_angles
@@ -52,6 +52,7 @@ __all__ = [
     "relative_to_pose",
     "resample",
     "segments",
+    "skipped",
     "smooth",
     "speed",
     "split",

@@ -13,7 +13,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion.poses import positive
 from dmpcpp.recordings.recording import MIN_SAMPLES, Array, Recording
 
-__all__ = ["LONGEST_GAP", "Gap", "fill", "gaps", "gaps_in", "split"]
+__all__ = ["LONGEST_GAP", "Gap", "fill", "gaps", "gaps_in", "skipped", "split"]
 
 LONGEST_GAP = 0.2
 """s; a hand turns back within a longer one, and nobody knows whether it did."""
@@ -55,6 +55,15 @@ def gaps_in(times: Array, there: NDArray[np.bool_]) -> tuple[Gap, ...]:
     return tuple(
         Gap(int(known[k]), int(known[k + 1]), float(time[k]), float(time[k + 1])) for k in np.flatnonzero(open_)
     )
+
+
+def skipped(times: Array) -> int:
+    """Return how many samples were never written at times (T,) [s]: those that a step more than 1.75 times as long as
+    the usual (median) one leaves room for.
+    """
+    steps = np.diff(times)
+    usual = float(np.median(steps))
+    return int(np.sum(np.round(steps[steps > _SKIPPED * usual] / usual) - 1.0))
 
 
 def fill(recording: Recording, longest: float = LONGEST_GAP) -> Recording:
