@@ -193,7 +193,9 @@ def _attempt(read: Callable[[Stated], _T], said: Stated) -> _Attempt[_T]:
 
 
 def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], body: str | None) -> Inspection:
-    reports, needed, assumed = [], {}, {}
+    reports: list[BodyReport] = []
+    needed: dict[str, str] = {}
+    assumed: dict[str, str] = {}
     for name in held if body is None else (body,):
         try:
             found = _attempt(partial(_recording, reader, path, name), said)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import multiprocessing
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import Executor, Future
+from contextlib import closing
 
 from dmpcpp.batch.task import Outcome, Task, carry_out, kept
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.processes import workers
 
 __all__ = ["imitate_many"]
 
@@ -46,9 +47,10 @@ def imitate_many(
     missing = [task for task in work if task.folder not in done]
     tell = progress or (lambda done, bad, total: None)
     tell(len(done), _bad(done), len(work))
-    for outcome in _outcomes(missing, executor, jobs):
-        done[outcome.folder] = outcome
-        tell(len(done), _bad(done), len(work))
+    with closing(_outcomes(missing, executor, jobs)) as outcomes:
+        for outcome in outcomes:
+            done[outcome.folder] = outcome
+            tell(len(done), _bad(done), len(work))
     return [done[task.folder] for task in work]
 
 
@@ -66,18 +68,14 @@ def _bad(done: dict[str, Outcome]) -> int:
     return sum(not outcome.ok for outcome in done.values())
 
 
-def _outcomes(missing: list[Task], executor: Executor | None, jobs: int) -> Iterator[Outcome]:
+def _outcomes(missing: list[Task], executor: Executor | None, jobs: int) -> Generator[Outcome]:
     if not missing:
         return
     if executor is not None:
         yield from _collected(executor, missing)
         return
-    # Spawned, not forked: a simulator's threads do not survive a fork.
-    pool = ProcessPoolExecutor(min(jobs, len(missing)), mp_context=multiprocessing.get_context("spawn"))
-    try:
+    with workers(min(jobs, len(missing))) as pool:
         yield from _collected(pool, missing)
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def _collected(executor: Executor, missing: list[Task]) -> Iterator[Outcome]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli.config import save_config
-from dmpcpp.cli.group import FAILED, refuse_file
+from dmpcpp.cli.group import FAILED, ended_by_sigterm, refuse_file
 from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.placing import scale_range
 from dmpcpp.cli.preparation import preparation_options, taken_preparation
@@ -98,7 +98,7 @@ def batch(
     )
     out.mkdir(parents=True, exist_ok=True)
     save_config(out / "config.toml")
-    with _progress(as_json) as progress:
+    with ended_by_sigterm(), _progress(as_json) as progress:
         outcomes = library.imitate_many(work, jobs=jobs, progress=progress)
     library.write_tables(outcomes, out)
     if as_json:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli.config import save_config
-from dmpcpp.cli.group import FAILED, refuse_file
+from dmpcpp.cli.group import FAILED, ended_by_sigterm, refuse_file
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -55,7 +55,7 @@ def generality(
         known.load(arm)  # refuses a name or file that is none
     wanted = library.trials(count, arms or ("panda", "iiwa"), noises or tuple(library.NOISE), seed)
     out.mkdir(parents=True, exist_ok=True)
-    with _progress(as_json) as progress:
+    with ended_by_sigterm(), _progress(as_json) as progress:
         results = library.run(wanted, out / "trials.jsonl", jobs, progress)
     summary = library.summary(results)
     text = json.dumps(summary, indent=2, allow_nan=False)

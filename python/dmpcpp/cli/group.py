@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +16,29 @@ from dmpcpp import __version__
 from dmpcpp.cli.recording_options import in_flags
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
-WRONG_INPUT, FAILED, INTERRUPTED = 2, 3, 130
+WRONG_INPUT, FAILED, INTERRUPTED, TERMINATED = 2, 3, 130, 143
+
+
+class _Terminated(BaseException):
+    """SIGTERM came."""
+
+
+@contextmanager
+def ended_by_sigterm() -> Iterator[None]:
+    """Let SIGTERM end a command as Ctrl-C does, so that the processes that it began end too."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # only the main thread is sent signals
+        return
+
+    def end(*_: object) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)  # a second one ends it at once
+        raise _Terminated
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class _Group(click.Group):
@@ -27,6 +53,9 @@ class _Group(click.Group):
         except KeyboardInterrupt:
             click.echo("dmpcpp: interrupted.", err=True)
             ctx.exit(INTERRUPTED)
+        except _Terminated:
+            click.echo("dmpcpp: terminated.", err=True)
+            ctx.exit(TERMINATED)
 
     def _options(self, ctx: click.Context) -> set[str]:
         """Return the names of the options of the command that runs."""

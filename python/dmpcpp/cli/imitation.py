@@ -83,8 +83,7 @@ def _run_options(
 @click.option("--body", default=_DEMO["body"], show_default=True, help="Whose motion.")
 @arm_options
 @_run_options(None, "dmpcpp-demo, followed by the clip, body and arm that were stated otherwise")
-@click.pass_context
-def demo(context: click.Context, clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
+def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
     """Show the main job on a human motion that every installation has.
 
     Example: dmpcpp demo --clip dance_b --arm iiwa --out dance
@@ -92,7 +91,8 @@ def demo(context: click.Context, clip: str, body: str, arm: str, base: str | Non
     from dmpcpp import arms, recordings
 
     if run["out"] is None:
-        run["out"] = context.params["out"] = _demo_folder({"clip": clip, "body": body, "arm": arm}, base, tip)
+        run["out"] = _demo_folder({"clip": clip, "body": body, "arm": arm}, base, tip)
+        click.get_current_context().params["out"] = run["out"]  # which config.toml shall hold
     _carry_out(recordings.clip(clip, body), arms.load(arm, base, tip), **run)
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import multiprocessing
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import as_completed
+from contextlib import closing
 from itertools import product
 from os import PathLike
 from pathlib import Path
@@ -13,6 +13,7 @@ from pathlib import Path
 from dmpcpp.errors import FileError, InvalidArgument
 from dmpcpp.generality.motions import NOISE
 from dmpcpp.generality.trial import Result, Trial, attempt
+from dmpcpp.processes import workers
 
 __all__ = ["kept", "run", "trials"]
 
@@ -68,10 +69,11 @@ def run(
     results = {result.trial: result for result in kept(path)}
     missing = [trial for trial in wanted if trial not in results]
     _tell(progress, wanted, results)
-    for result in _made(missing, jobs):
-        _append(path, result)
-        results[result.trial] = result
-        _tell(progress, wanted, results)
+    with closing(_made(missing, jobs)) as made:
+        for result in made:
+            _append(path, result)
+            results[result.trial] = result
+            _tell(progress, wanted, results)
     return [results[trial] for trial in wanted]
 
 
@@ -99,17 +101,13 @@ def _tell(progress: Callable[[int, int, int], None] | None, wanted: list[Trial],
         progress(len(done), sum(not result.ok for result in done), len(wanted))
 
 
-def _made(missing: list[Trial], jobs: int) -> Iterator[Result]:
+def _made(missing: list[Trial], jobs: int) -> Generator[Result]:
     if jobs == 1 or len(missing) < 2:
         yield from map(attempt, missing)
         return
-    # Spawned, not forked: a simulator's threads do not survive a fork.
-    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+    with workers(jobs) as pool:
         futures = [pool.submit(attempt, trial) for trial in missing]
-        try:
-            yield from (future.result() for future in as_completed(futures))
-        finally:
-            pool.shutdown(cancel_futures=True)
+        yield from (future.result() for future in as_completed(futures))
 
 
 def _append(path: Path, result: Result) -> None:
