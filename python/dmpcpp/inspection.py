@@ -196,27 +196,31 @@ def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], 
     reports: list[BodyReport] = []
     needed: dict[str, str] = {}
     assumed: dict[str, str] = {}
-    for name in held if body is None else (body,):
-        try:
-            found = _attempt(partial(_recording, reader, path, name), said)
-        except InvalidArgument as error:
-            if name not in held or len(held) == 1 or body is not None:
-                raise
-            reports.append(BodyReport(name, refused=str(error)))
-            continue
+    names = held if body is None else (body,)
+    for name in names:
+        found = _of_body(reader, path, said, name, alone=len(names) == 1)
         needed |= found.needed
         if found.refused:
             reports.append(BodyReport(name, refused=found.refused))
-        if found.result is not None:
-            known = _assumed(found.result.up_axis, found.result.history)
-            assumed = {what: value for what, value in known.items() if what not in needed}
+        elif found.result is not None:
+            assumed = _assumed(found.result, needed)
             if not found.needed:  # with a stand-in for a unit, say, its figures would be wrong
                 reports.append(_report(found.result))
         if found.needed:
             break  # the other bodies of the file lack the same
-    if body is None and len(held) > 1:
+    if len(names) > 1:
         needed["body"] = f"the file holds several: {', '.join(held)}"
     return Inspection(path.name, reader.name, held, tuple(reports), needed=needed, assumed=assumed)
+
+
+def _of_body(reader: Reader, path: Path, said: Stated, name: str, *, alone: bool) -> _Attempt[Recording]:
+    """Return what was read of a body; one that is refused is an error where it is looked at alone."""
+    try:
+        return _attempt(partial(_recording, reader, path, name), said)
+    except InvalidArgument as error:
+        if alone:
+            raise
+        return _Attempt(None, {}, str(error))
 
 
 def _recording(reader: Reader, path: Path, name: str, said: Stated) -> Recording:
@@ -231,7 +235,7 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
     if found is None:
         refused = (BodyReport(path.name, refused=attempt.refused),) if attempt.refused else ()
         return Inspection(path.name, reader.name, bodies=refused, needed=needed)
-    assumed = {what: v for what, v in _assumed(found.up_axis, found.history).items() if what not in needed}
+    assumed = _assumed(found, needed)
     if needed:  # with a stand-in for a unit, say, their figures would be wrong
         if names is None:
             needed["markers"] = f"three or more that sit on one rigid body, of: {', '.join(found.names)}"
@@ -255,11 +259,12 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
     )
 
 
-def _assumed(up_axis: str | None, history: tuple[str, ...]) -> dict[str, str]:
+def _assumed(found: Recording | Markers, needed: dict[str, str]) -> dict[str, str]:
+    """Return what was taken for granted, but for what is to be stated."""
     assumed = {}
-    if any(note.startswith("no length unit stated") for note in history):
+    if "unit" not in needed and any(note.startswith("no length unit stated") for note in found.history):
         assumed["unit"] = "m"
-    if up_axis is None:
+    if "up_axis" not in needed and found.up_axis is None:
         assumed["up_axis"] = "z"
     return assumed
 
