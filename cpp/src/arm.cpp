@@ -4,26 +4,15 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <kdl/chainjnttojacsolver.hpp>
-#include <sstream>
 
 #include "detail/checks.hpp"
 #include "detail/kdl_forward.hpp"
+#include "detail/text_file.hpp"
 #include "detail/urdf_chain.hpp"
 
 namespace dmp {
 namespace {
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw FileError("'" + path + "': the file can not be opened.");
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw FileError("'" + path + "': the file can not be read.");
-  return text.str();
-}
 
 Eigen::Matrix4d matrix_of(const detail::Frame& frame) {
   Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
@@ -59,7 +48,7 @@ Arm Arm::from_urdf(const std::string& text, const std::string& base, const std::
 }
 
 Arm Arm::from_urdf_file(const std::string& path, const std::string& base, const std::string& tip) {
-  const std::string text = read_text(path);
+  const std::string text = detail::read_text(path, "a URDF");
   try {
     return from_urdf(text, base, tip, std::filesystem::absolute(path).parent_path().string());
   } catch (const InvalidArgument& error) {

@@ -6,31 +6,44 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <filesystem>
 
 #include "detail/model_json.hpp"
+#include "detail/text_file.hpp"
 
 namespace dmp {
 namespace {
 
-constexpr std::size_t kLargestFile = 64u << 20;
+using detail::fail;
+using detail::kLargestFile;
 
-[[noreturn]] void fail(const std::string& path, const std::string& action) {
-  throw FileError(path + ": can not " + action + ": " + std::strerror(errno) + ".");
+/// The file that a link stands for, so that the link stays one.
+std::string behind_links(const std::string& path) {
+  std::error_code none;
+  const std::filesystem::path target = std::filesystem::canonical(path, none);
+  return none ? path : target.string();
 }
 
-/// A temporary file in the folder of `path` that is gone again unless it was moved into place.
+void flush(int descriptor, const std::string& path) {
+  if (::fsync(descriptor) != 0) fail(path, "be flushed to disk");
+}
+
+/// A temporary file in the folder of `path` that is gone again unless it was moved into place. It has the
+/// permissions of the file that it takes the place of, or those of any new file.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& path) : path_(path), name_(path + ".XXXXXX") {
-    descriptor_ = ::mkstemp(name_.data());
-    if (descriptor_ < 0) fail(path, "be written");
-    ::fchmod(descriptor_, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
+  explicit TemporaryFile(const std::string& path) : path_(path) {
+    for (int i = 0; descriptor_ < 0; ++i) {
+      name_ = path + "." + std::to_string(::getpid()) + "." + std::to_string(i);
+      descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && errno != EEXIST) fail(path, "be written");
+    }
+    struct stat before{};
+    if (::stat(path.c_str(), &before) == 0 && S_ISREG(before.st_mode))
+      ::fchmod(descriptor_, before.st_mode & 07777);
   }
   ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    ::close(descriptor_);
     if (!moved_) ::unlink(name_.c_str());
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -42,11 +55,16 @@ class TemporaryFile {
       if (count < 0 && errno != EINTR) fail(path_, "be written");
       if (count > 0) done += static_cast<std::size_t>(count);
     }
-    if (::fsync(descriptor_) != 0) fail(path_, "be flushed to disk");
+    flush(descriptor_, path_);
   }
   void move_into_place() {
     if (::rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "be written");
     moved_ = true;
+    const std::string folder = std::filesystem::path(path_).parent_path().string();
+    const int names = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (names < 0) return;  // a folder that may be written and not read: the file is there all the same
+    ::fsync(names);
+    ::close(names);
   }
 
  private:
@@ -55,20 +73,6 @@ class TemporaryFile {
   int descriptor_ = -1;
   bool moved_ = false;
 };
-
-std::string read(const std::string& path) {
-  struct stat about {};
-  if (::stat(path.c_str(), &about) != 0) fail(path, "be read");
-  if (!S_ISREG(about.st_mode)) throw FileError(path + ": not a file.");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "be read");
-  if (static_cast<std::size_t>(about.st_size) > kLargestFile)
-    throw InvalidArgument(path + ": larger than 64 MiB, expected a model file.");
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) fail(path, "be read");
-  return text.str();
-}
 
 template <class Kind>
 Kind load_kind(const std::string& path, const char* expected) {
@@ -79,7 +83,13 @@ Kind load_kind(const std::string& path, const char* expected) {
 
 }  // namespace
 
-std::string to_json(const Model& model) { return detail::model_to_json(model).dump(1) + "\n"; }
+std::string to_json(const Model& model) {
+  detail::require_readable(model);
+  const std::string text = detail::model_to_json(model).dump(1) + "\n";
+  if (text.size() > kLargestFile)
+    throw InvalidArgument("model: larger than 64 MiB as a file. Use fewer kernels.");
+  return text;
+}
 
 Model from_json(const std::string& text) {
   if (text.size() > kLargestFile) throw InvalidArgument("model: larger than 64 MiB.");
@@ -87,14 +97,16 @@ Model from_json(const std::string& text) {
 }
 
 void save(const Model& model, const std::string& path) {
-  TemporaryFile file(path);
-  file.write(to_json(model));
+  const std::string text = to_json(model);
+  if (path.find('\0') != std::string::npos) throw FileError("path: holds a byte of zero, expected a name.");
+  TemporaryFile file(behind_links(path));
+  file.write(text);
   file.move_into_place();
 }
 
 Model load(const std::string& path) {
   try {
-    return from_json(read(path));
+    return from_json(detail::read_text(path, "a model file"));
   } catch (const InvalidArgument& error) {
     throw InvalidArgument(path + ": " + error.what());
   }

@@ -1,5 +1,6 @@
 #include <pybind11/native_enum.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 #include <dmp/arm.hpp>
 #include <dmp/error.hpp>
 #include <dmp/ik_branches.hpp>
@@ -25,9 +26,15 @@ std::optional<Eigen::VectorXd> optional_vector(const std::optional<Array>& array
   return to_vector(*array, name);
 }
 
+// A property that is text of the URDF, which may be in another encoding than UTF-8.
+template <class Text>
+auto text_of(const Text& (Arm::*get)() const) {
+  return [get](const Arm& arm) { return readable((arm.*get)()); };
+}
+
 // An arm is its URDF and its limits: what another process needs to make the same one.
 py::tuple arm_state(const Arm& arm) {
-  return py::make_tuple(arm.urdf(), arm.base(), arm.tip(), arm.folder(), from_vector(arm.lower()),
+  return py::make_tuple(py::bytes(arm.urdf()), arm.base(), arm.tip(), arm.folder(), from_vector(arm.lower()),
                         from_vector(arm.upper()), from_vector(arm.velocity_limit()),
                         from_vector(arm.effort_limit()));
 }
@@ -55,9 +62,8 @@ master. Radians for turning joints, metres for sliding ones; poses are tip in ba
 Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.)")
       .def_static(
           "from_urdf_file",
-          [](const py::object& path, const std::string& base, const std::string& tip) {
-            return Arm::from_urdf_file(py::module_::import("os").attr("fspath")(path).cast<std::string>(),
-                                       base, tip);
+          [](const std::filesystem::path& path, const std::string& base, const std::string& tip) {
+            return Arm::from_urdf_file(path.string(), base, tip);
           },
           py::arg("path"), py::arg("base") = "", py::arg("tip") = "",
           "Read a URDF from a file and keep its folder. Raises FileError if it can not be read.")
@@ -72,11 +78,11 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
           py::kw_only(), py::arg("lower") = py::none(), py::arg("upper") = py::none(),
           py::arg("velocity") = py::none(), py::arg("effort") = py::none(),
           "A copy with other joint limits, each of n values; what is None stays.")
-      .def_property_readonly("name", &Arm::name, "Name of the robot.")
-      .def_property_readonly("base", &Arm::base, "Link in whose frame poses are given.")
-      .def_property_readonly("tip", &Arm::tip, "Link whose pose is given.")
+      .def_property_readonly("name", text_of(&Arm::name), "Name of the robot.")
+      .def_property_readonly("base", text_of(&Arm::base), "Link in whose frame poses are given.")
+      .def_property_readonly("tip", text_of(&Arm::tip), "Link whose pose is given.")
       .def_property_readonly("joint_count", &Arm::joint_count, "Number of free joints, n.")
-      .def_property_readonly("joint_names", &Arm::joint_names,
+      .def_property_readonly("joint_names", text_of(&Arm::joint_names),
                              "Names of the n free joints, from base to tip.")
       .def_property_readonly("lower", vector_of(&Arm::lower), "(n,) rad or m; -inf for a continuous joint.")
       .def_property_readonly("upper", vector_of(&Arm::upper), "(n,) rad or m; inf for a continuous joint.")
@@ -84,9 +90,10 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
                              "(n,) rad/s or m/s; inf where the URDF states none.")
       .def_property_readonly("effort_limit", vector_of(&Arm::effort_limit),
                              "(n,) N m or N; inf where the URDF states none.")
-      .def_property_readonly("warnings", &Arm::warnings, "What is doubtful in the URDF, one sentence each.")
-      .def_property_readonly("urdf", &Arm::urdf, "The text that was read.")
-      .def_property_readonly("folder", &Arm::folder,
+      .def_property_readonly("warnings", text_of(&Arm::warnings),
+                             "What is doubtful in the URDF, one sentence each.")
+      .def_property_readonly("urdf", text_of(&Arm::urdf), "The text that was read.")
+      .def_property_readonly("folder", text_of(&Arm::folder),
                              "Folder to which mesh paths are relative; empty if not told.")
       .def(
           "forward_kinematics",
@@ -155,7 +162,23 @@ void bind_results(py::module_& m) {
       .def_readonly("iterations", &IkResult::iterations)
       .def_readonly("limit_margin", &IkResult::limit_margin, "rad or m from the nearest joint limit.")
       .def_readonly("blocked", &IkResult::blocked, "Indices of the joints that a limit holds back.")
-      .def("__repr__", [](const IkResult& r) { return "<IkResult " + summary(r) + ">"; });
+      .def("__repr__", [](const IkResult& r) { return "<IkResult " + summary(r) + ">"; })
+      .def(py::pickle(
+          [](const IkResult& r) {
+            return py::make_tuple(from_vector(r.joints), r.status, r.position_error, r.angle_error,
+                                  r.iterations, r.limit_margin, r.blocked);
+          },
+          [](const py::tuple& state) {
+            IkResult r;
+            r.joints = to_vector(state[0].cast<Array>(), "joints");
+            r.status = state[1].cast<IkStatus>();
+            r.position_error = state[2].cast<double>();
+            r.angle_error = state[3].cast<double>();
+            r.iterations = state[4].cast<int>();
+            r.limit_margin = state[5].cast<double>();
+            r.blocked = state[6].cast<decltype(r.blocked)>();
+            return r;
+          }));
   py::class_<IkBatch>(m, "IkBatch", "What solve_many found for N poses.")
       .def_property_readonly(
           "joints", [](const IkBatch& b) { return from_matrix(b.joints); }, "(N, n) rad or m.")
@@ -164,7 +187,21 @@ void bind_results(py::module_& m) {
           "position_error", [](const IkBatch& b) { return from_vector(b.position_error); }, "(N,) m.")
       .def_property_readonly(
           "angle_error", [](const IkBatch& b) { return from_vector(b.angle_error); }, "(N,) rad.")
-      .def_readonly("solved", &IkBatch::solved, "How many poses have the status ok.");
+      .def_readonly("solved", &IkBatch::solved, "How many poses have the status ok.")
+      .def(py::pickle(
+          [](const IkBatch& b) {
+            return py::make_tuple(from_matrix(b.joints), b.status, from_vector(b.position_error),
+                                  from_vector(b.angle_error), b.solved);
+          },
+          [](const py::tuple& state) {
+            IkBatch b;
+            b.joints = to_matrix(state[0].cast<Array>(), "joints");
+            b.status = state[1].cast<std::vector<IkStatus>>();
+            b.position_error = to_vector(state[2].cast<Array>(), "position_error");
+            b.angle_error = to_vector(state[3].cast<Array>(), "angle_error");
+            b.solved = state[4].cast<Eigen::Index>();
+            return b;
+          }));
 }
 
 py::tuple report_state(const PathReport& r) {

@@ -17,14 +17,15 @@ void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpO
   options.def_property(
       name, [member](const DmpOptions& o) { return o.*member; },
       [member, name](DmpOptions& o, const py::object& value) {
-        if (!py::isinstance<py::str>(value)) {
+        const py::object type = py::type::of(py::cast(Enum{}));
+        if (py::isinstance(value, type)) {
           o.*member = value.cast<Enum>();
           return;
         }
-        const py::dict members = py::type::of(py::cast(Enum{})).attr("__members__");
-        if (!members.contains(value))
-          throw InvalidArgument(std::string(name) + ": '" + value.cast<std::string>() +
-                                "' is unknown, expected one of " +
+        const py::dict members = type.attr("__members__");
+        if (!py::isinstance<py::str>(value) || !members.contains(value))
+          throw InvalidArgument(std::string(name) + ": " + py::repr(value).cast<std::string>() +
+                                " is unknown, expected one of " +
                                 py::str(", ").attr("join")(py::list(members)).cast<std::string>() + ".");
         o.*member = py::object(members[value]).cast<Enum>();
       },
@@ -77,7 +78,7 @@ void bind_enums(py::module_& m) {
 void set_fields(DmpOptions& options, const py::kwargs& fields) {
   py::object wrapped = py::cast(options);
   for (const auto& [key, value] : fields) {
-    if (!py::hasattr(wrapped, key))
+    if (!is_field<DmpOptions>(key))
       throw InvalidArgument("options: '" + key.cast<std::string>() +
                             "' is unknown. See help(dmpcpp.DmpOptions).");
     try {

@@ -2,13 +2,40 @@
 
 #include "bind.hpp"
 
+namespace {
+
+/// Bytes of a message that are no UTF-8 (of a path, say) are written as \xff: without them it would be no
+/// text.
+void raise(const pybind11::object& type, const std::exception& error) {
+  const std::string text = error.what();
+  const auto message = pybind11::reinterpret_steal<pybind11::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<pybind11::ssize_t>(text.size()), "backslashreplace"));
+  PyErr_SetObject(type.ptr(), message.ptr());
+}
+
+template <class Error>
+void register_error(pybind11::module_& m, const char* name, PyObject* base) {
+  static pybind11::object type;  // never destroyed: the interpreter goes first
+  type = pybind11::exception<Error>(m, name, base);
+  type.inc_ref();
+  pybind11::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      raise(type, error);
+    }
+  });
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_core, m) {
   namespace py = pybind11;
   m.doc() =
       "Dynamic movement primitives and inverse kinematics: the C++ libraries dmp::core and dmp::kinematics.";
   m.attr("__version__") = DMP_VERSION;
-  py::register_exception<dmp::InvalidArgument>(m, "InvalidArgument", PyExc_ValueError);
-  py::register_exception<dmp::FileError>(m, "FileError", PyExc_OSError);
+  register_error<dmp::InvalidArgument>(m, "InvalidArgument", PyExc_ValueError);
+  register_error<dmp::FileError>(m, "FileError", PyExc_OSError);
   dmp::python::bind_so3(m);
   dmp::python::bind_demonstration(m);
   dmp::python::bind_options(m);

@@ -14,12 +14,20 @@ namespace py = pybind11;
 /// one.
 DmpOptions options_with(const std::optional<DmpOptions>& options, const py::kwargs& fields);
 
+/// Whether a class of options has this field.
+template <class Options>
+bool is_field(const py::handle& name) {
+  const py::object property = py::module_::import("builtins").attr("property");
+  const py::object member = py::type::of<Options>().attr("__dict__").attr("get")(name);
+  return py::isinstance(member, property) && !member.attr("fset").is_none();
+}
+
 /// `options` (the defaults if None) with the keywords written over its fields.
 template <class Options>
 Options with_fields(const std::optional<Options>& options, const py::kwargs& fields) {
   py::object object = py::cast(options.value_or(Options{}));
   for (const auto& [name, value] : fields) {
-    if (!py::hasattr(object, name))
+    if (!is_field<Options>(name))
       throw py::type_error("unknown option '" + py::str(name).cast<std::string>() + "'.");
     py::setattr(object, name, py::reinterpret_borrow<py::object>(value));
   }

@@ -1,5 +1,7 @@
 """The errors that dmpcpp raises on purpose; each message says what came, what was expected and what to do."""
 
+from __future__ import annotations
+
 from dmpcpp._core import FileError, IkResult, InvalidArgument, PathReport
 
 __all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency", "NotStated"]
@@ -19,6 +21,10 @@ class IkError(RuntimeError):
         super().__init__(message)
         self.report = report
 
+    def __reduce__(self) -> tuple[type[IkError], tuple[str, IkResult | PathReport]]:
+        """Go through a pickle with the report, as an error of a worker process does."""
+        return type(self), (str(self), self.report)
+
 
 class MissingDependency(ImportError):
     """An optional package is not installed; the message names the extra that brings it."""
@@ -31,3 +37,7 @@ class NotStated(InvalidArgument):
         """Take the parameter or parameters, one of which is to be stated, and the message."""
         super().__init__(message)
         self.names = (names,) if isinstance(names, str) else names
+
+    def __reduce__(self) -> tuple[type[NotStated], tuple[tuple[str, ...], str]]:
+        """Go through a pickle with the names."""
+        return type(self), (self.names, str(self))

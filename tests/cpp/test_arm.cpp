@@ -288,6 +288,13 @@ TEST_CASE("A cycle is found however its XML is written, whether or not the walk 
               std::string::npos);
     }
   CHECK(refusal(replaced(apart, "\"a\"/>", "\"&#97;\"/>"), "root", "a").find("cycle") != std::string::npos);
+  // What begins with no name is no element to urdfdom's parser, and its quotes hide nothing.
+  for (const char* no_element : {"<6 0.8\"/>", "<'>", "<= \">", "<\">"}) {
+    CAPTURE(no_element);
+    CHECK(refusal(replaced(apart, "<link name=\"a\"/>", "<link name=\"a\"/>" + std::string(no_element)),
+                  "root", "c")
+              .find("expected a tree") != std::string::npos);
+  }
 }
 
 TEST_CASE("Deep nesting is refused behind quotes too that are no attribute's") {
@@ -363,6 +370,7 @@ TEST_CASE("An arm from a file knows its folder; a missing file is a FileError") 
   CHECK_THROWS_WITH_AS(Arm::from_urdf_file(file.string()), doctest::Contains("dmp_test_arm.urdf"),
                        dmp::FileError);
   CHECK_THROWS_AS(Arm::from_urdf_file("/"), dmp::FileError);
+  CHECK_THROWS_WITH_AS(Arm::from_urdf_file("/dev/zero"), doctest::Contains("not a file"), dmp::FileError);
 }
 
 TEST_CASE("Threads that share an arm get the serial answers, bit for bit") {

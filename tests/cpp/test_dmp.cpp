@@ -495,3 +495,14 @@ TEST_CASE("demonstrations of different dimensions are refused with both numbers"
                        doctest::Contains("demonstrations[1]: 1 dimensions, expected 2 as in the first"),
                        InvalidArgument);
 }
+
+TEST_CASE("a number that is no enumerator is refused, whoever made it one") {
+  DmpOptions options;
+  options.scaling = static_cast<Scaling>(9);
+  CHECK_THROWS_WITH_AS(Dmp::fit(reach(30, 1.0), options), doctest::Contains("options.scaling: 9"),
+                       InvalidArgument);
+  options = {};
+  options.integrator = static_cast<Integrator>(-1);
+  CHECK_THROWS_WITH_AS(Dmp::fit(reach(30, 1.0), options), doctest::Contains("options.integrator: -1"),
+                       InvalidArgument);
+}

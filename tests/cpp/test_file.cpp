@@ -2,6 +2,7 @@
 #include <dmp/error.hpp>
 #include <dmp/file.hpp>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -228,4 +229,59 @@ TEST_CASE("numbers out of range or of another count are refused by their name") 
                                       {"basis_count", "2.5"}})
     refused(with_value(position, first_of(position, option), least),
             (std::string("options.") + option).c_str());
+}
+
+TEST_CASE("what would take long or much to read is refused at once") {
+  const std::string text = to_json(Dmp::fit(reach(30, 1.0)));
+  const auto with = [&](const std::string& more) { return "{" + more + "," + text.substr(1); };
+  std::string keys = "\"k0\": 1", lists = "\"x\": [[]", objects = "\"x\": [{}";
+  for (int i = 1; i < 100000; ++i) keys += ", \"k" + std::to_string(i) + "\": 1";
+  for (int i = 1; i <= 1000000; ++i) lists += ",[]", objects += ",{}";
+  CHECK_THROWS_WITH_AS(from_json(with(keys)), doctest::Contains("more than 100 keys"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(from_json(with("\"x\": {" + keys + "}")), doctest::Contains("more than 100 keys"),
+                       InvalidArgument);
+  CHECK_THROWS_WITH_AS(from_json(with(lists + "]")), doctest::Contains("10^6"), InvalidArgument);
+  CHECK_THROWS_WITH_AS(from_json(with(objects + "]")), doctest::Contains("10^6"), InvalidArgument);
+}
+
+TEST_CASE("a model that could not be read again is not written") {
+  const Folder folder;
+  DmpParameters p = spring(0, 1, 1).parameters();
+  p.options.basis_count = 50000;
+  const auto of = [&](int dimension) {
+    p.start = p.goal = p.start_velocity = p.amplitude = Eigen::VectorXd::Ones(dimension);
+    p.weights = RowMatrix::Zero(50000, dimension);
+    return Dmp(p);
+  };
+  save(of(19), folder.path / "large.json");
+  CHECK(load_dmp(folder.path / "large.json").dimension() == 19);
+  CHECK_THROWS_WITH_AS(save(of(20), folder.path / "larger.json"), doctest::Contains("weights: 50000 x 20"),
+                       InvalidArgument);
+  CHECK_FALSE(std::filesystem::exists(folder.path / "larger.json"));
+}
+
+TEST_CASE("a file keeps its permissions and stays behind its link; a new one has those of the process") {
+  const Folder folder;
+  const Dmp dmp = Dmp::fit(reach(30, 1.0));
+  const std::filesystem::path file = folder.path / "model.json", link = folder.path / "link.json";
+  const auto mode_of = [](const std::filesystem::path& path) {
+    return static_cast<unsigned>(std::filesystem::status(path).permissions());
+  };
+  const mode_t before = ::umask(027);
+  save(dmp, file);
+  ::umask(before);
+  CHECK(mode_of(file) == 0640);
+  std::filesystem::permissions(file, std::filesystem::perms(0600));
+  std::filesystem::create_symlink("model.json", link);
+  save(dmp, link);
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(mode_of(file) == 0600);
+  CHECK(load_dmp(file).parameters().weights == dmp.parameters().weights);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) == 2);
+}
+
+TEST_CASE("devices, and names with a zero byte in them, are no files") {
+  CHECK_THROWS_WITH_AS(load("/dev/zero"), doctest::Contains("not a file"), FileError);
+  CHECK_THROWS_WITH_AS(load(std::string("model.json\0x", 12)), doctest::Contains("zero"), FileError);
+  CHECK_THROWS_AS(save(Dmp::fit(reach(30, 1.0)), std::string("model.json\0x", 12)), FileError);
 }

@@ -89,10 +89,12 @@ class DMP_EXPORT Run {
   Run& operator=(Run&& other) noexcept;
   ~Run();
 
-  /// Moves on by dt seconds (0 or more), in internal steps of at most 0.005 of the duration.
+  /// Moves on by dt seconds, 0 to 10 durations (else invalid_input), in internal steps of at most 0.005 of
+  /// the duration, or of half a duration over the largest of alpha and goal_filter where that is less.
   Status step(double dt) noexcept DMP_REALTIME;
   /// The goal (d) to go to from now on, approached through DmpOptions::goal_filter; before the
-  /// first step it counts at once.
+  /// first step it counts at once. Like start_from, it takes no memory for a vector; of an expression or a
+  /// row of a matrix Eigen makes a copy before the call, which does.
   Status set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept DMP_REALTIME;
   /// The duration (s) of the whole motion from now on; the path stays the same. Before the
   /// first step at once, later through DmpOptions::tempo_filter.

@@ -13,14 +13,16 @@ namespace dmp {
 
 using Model = std::variant<Dmp, OrientationDmp, PoseDmp>;
 
+/// Throws InvalidArgument for a model that from_json would refuse for its size.
 DMP_EXPORT std::string to_json(const Model& model);
 /// Throws InvalidArgument, naming the place, for text that is no JSON, another format, another version, an
-/// unknown kind or enumerator, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB or
-/// 10^6 numbers.
+/// unknown kind or enumerator, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB,
+/// 10^6 numbers, or 100 keys in one object.
 DMP_EXPORT Model from_json(const std::string& text);
 
 /// Writes a temporary file beside `path`, flushes it to disk and renames it: the file is there whole or not
-/// at all. Throws FileError.
+/// at all, with the permissions of the file that it replaces, or else of any new file. Throws FileError;
+/// InvalidArgument as to_json.
 DMP_EXPORT void save(const Model& model, const std::string& path);
 /// Throws FileError if the file can not be read, InvalidArgument if it is no model.
 DMP_EXPORT Model load(const std::string& path);

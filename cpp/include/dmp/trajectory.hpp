@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dmp/alignment.hpp>
+
 #include <Eigen/Core>
 #include <vector>
 

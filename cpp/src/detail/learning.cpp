@@ -39,6 +39,24 @@ void require_at_most(double value, double most, const char* name) {
                           number(most) + ".");
 }
 
+template <class Enum>
+void require_enumerator(Enum value, Enum last, const char* name) {
+  if (static_cast<int>(value) < 0 || value > last)
+    throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(static_cast<int>(value)) +
+                          " is none of its enumerators.");
+}
+
+void require_enumerators(const DmpOptions& o) {
+  require_enumerator(o.kernels, Kernels::source, "kernels");
+  require_enumerator(o.regression, Regression::ridge, "regression");
+  require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
+  require_enumerator(o.orientation_form, OrientationForm::log_linear, "orientation_form");
+  require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
+  require_enumerator(o.derivatives, Derivatives::gradient, "derivatives");
+  require_enumerator(o.start, Start::rest, "start");
+  require_enumerator(o.integrator, Integrator::semi_implicit_euler, "integrator");
+}
+
 VectorXd range(const RowMatrix& values) { return values.colwise().maxCoeff() - values.colwise().minCoeff(); }
 
 /// Second-order differences: central inside, one-sided at the ends; any grid.
@@ -137,6 +155,7 @@ void keep_spring_only(Velocity& start, ForcingTarget& target) {
 
 DmpOptions resolved(const DmpOptions& options) {
   DmpOptions result = options;
+  require_enumerators(options);
   if (options.basis_count < 1 || options.basis_count > 100000)
     throw InvalidArgument("options.basis_count: " + std::to_string(options.basis_count) +
                           ", expected 1 to 100000 kernels.");

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr std::size_t kMostNumbers = 1000000;
+constexpr std::size_t kMostKeys = 100;  // of one object, whose keys are looked up one after the other
 constexpr int kDeepest = 8;
 
 const Names<Kernels> kKernels{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
@@ -101,24 +102,29 @@ Parameters read(const Json& json) {
   return parameters;
 }
 
-/// Refuses what a plain parse would take: repeated keys, deep nesting, too many values.
+/// Refuses what a plain parse would take: repeated keys, deep nesting, too many values, lists or objects, and
+/// objects of so many keys that looking one up takes long.
 class Guard {
  public:
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
     if (depth > kDeepest)
       throw InvalidArgument("model: nested deeper than " + std::to_string(kDeepest) + " levels.");
-    if (event == Event::value && ++values_ > kMostNumbers)
-      throw InvalidArgument("model: more than 10^6 values.");
+    const bool begins = event == Event::array_start || event == Event::object_start;
+    if ((event == Event::value && ++values_ > kMostNumbers) || (begins && ++lists_ > kMostNumbers))
+      throw InvalidArgument("model: more than 10^6 values, lists or objects.");
     if (event == Event::object_start) keys_.emplace_back();
     if (event == Event::object_end) keys_.pop_back();
     if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)
       throw InvalidArgument("model: the key '" + parsed.get<std::string>() + "' stands twice.");
+    if (event == Event::key && keys_.back().size() > kMostKeys)
+      throw InvalidArgument("model: an object of more than " + std::to_string(kMostKeys) + " keys.");
     return true;
   }
 
  private:
   std::size_t values_ = 0;
+  std::size_t lists_ = 0;
   std::vector<std::set<std::string>> keys_;
 };
 
@@ -138,6 +144,16 @@ Json parse_json(const std::string& text) {
 
 Json model_to_json(const Model& model) {
   return std::visit([](const auto& kind) { return to_json(kind); }, model);
+}
+
+void require_readable(const Model& model) {
+  const RowMatrix& weights =
+      std::visit([](const auto& kind) -> const RowMatrix& { return kind.parameters().weights; }, model);
+  const auto numbers = static_cast<std::size_t>(weights.size() + 4 * weights.cols() + 100);
+  if (numbers > kMostNumbers)
+    throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " x " +
+                          std::to_string(weights.cols()) +
+                          ", more than a model file may hold (10^6 numbers in all). Use fewer kernels.");
 }
 
 Model model_from_json(const Json& json) {

@@ -1,5 +1,6 @@
 #include "urdf_scan.hpp"
 
+#include <cctype>
 #include <cstring>
 #include <dmp/error.hpp>
 #include <set>
@@ -35,13 +36,18 @@ std::size_t end_of_tag(const std::string& text, std::size_t at) {
   return at;
 }
 
+/// Whether a tag of TinyXML's begins an element or ends one; all else ('<6', '<?', '<!') it passes over up to '>'.
+bool is_element(char after) {
+  const auto byte = static_cast<unsigned char>(after);
+  return std::isalpha(byte) || byte >= 127 || after == '_' || after == '/';
+}
+
 /// Where what begins with '<' at `at` ends, as urdfdom's parser takes it: quotes count in elements alone.
 std::size_t end_of_markup(const std::string& text, std::size_t at) {
   const auto is = [&](const char* start) { return text.compare(at, std::strlen(start), start) == 0; };
   if (is("<!--")) return text.find("-->", at);
   if (is("<![CDATA[")) return text.find("]]>", at);
-  if (is("<!") || is("<?")) return text.find('>', at);
-  return end_of_tag(text, at);
+  return is_element(text[at + 1]) ? end_of_tag(text, at) : text.find('>', at);
 }
 
 // Reads tag by tag and keeps what the graph needs. It need not understand all of XML: urdfdom judges the
@@ -62,7 +68,7 @@ class Scanner {
 
  private:
   void take(const std::string& tag) {
-    if (tag[1] == '?' || tag[1] == '!') return;
+    if (!is_element(tag[1])) return;
     if (tag[1] == '/') {
       --depth_;
     } else {

@@ -21,6 +21,7 @@ __all__ = ["fit_poses", "of_markers", "rigid_body", "single_marker"]
 
 _LEAST_HEIGHT = 0.05  # of the triangle's longest side: what is flatter gives no turn about that side
 _ROUNDS = 5  # of alignment and mean; the shape settles by orders of magnitude in each
+_FARTHEST = 1e6  # m
 _WORTH_A_WARNING = 0.005  # m rms; optical systems leave 0.1 mm on a plate, skin some millimetres
 
 
@@ -63,6 +64,7 @@ def rigid_body(
         raise InvalidArgument(f"max_residual: {max_residual}, expected a positive length in m.")
     chosen = markers.chosen(names)
     names = chosen.names
+    _require_near(chosen)
     shape = _shape(chosen)
     rotation, position, residual = fit_poses(shape, chosen.position)
     notes = [*markers.history, f"rigid body of {', '.join(names)}"]
@@ -185,6 +187,16 @@ def _shape(chosen: Markers) -> Array:
         rotation, origin, _ = fit_poses(shape, frames)
         shape = np.einsum("tji,tmj->mi", rotation, frames - origin[:, None]) / len(frames)
     return _in_own_axes(shape)
+
+
+def _require_near(chosen: Markers) -> None:
+    """Refuse markers so far away that the squares of their distances overflow, or leave no digits for the body."""
+    farthest = float(np.abs(chosen.position[~chosen.missing]).max(initial=0.0))
+    if farthest > _FARTHEST:
+        raise InvalidArgument(
+            f"markers: one is {farthest:.3g} m from the origin, expected at most {_FARTHEST:g} m. State the unit, or crop "
+            "such frames out."
+        )
 
 
 def _in_own_axes(shape: Array) -> Array:

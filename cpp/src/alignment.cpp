@@ -1,0 +1,3 @@
+#include <dmp/alignment.hpp>
+
+extern "C" const char DMP_ALIGNMENT_SYMBOL = 0;
