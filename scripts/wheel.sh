@@ -48,10 +48,17 @@ check_contents() {
   echo "ok  $(basename "$wheel"): $size bytes, $libraries bundled libraries"
 }
 
-# A mount namespace in which the system's libraries are empty files: what the wheel needs it must bring.
+# A mount namespace in which what the loader finds of the bundled libraries are empty files: what the wheel needs it
+# must bring. Nothing runs unless each of them is seen to be empty.
 without_system_libraries() {
   unshare -m bash -c '
-    for library in /usr/lib/*/lib{orocos-kdl,urdfdom,tinyxml,console_bridge}*.so*; do mount --bind /dev/null "$library"; done
+    set -euo pipefail
+    libraries=$(ldconfig -p | sed -nE "s,^.*lib(orocos-kdl|urdfdom|tinyxml|console_bridge).* => ,,p")
+    grep -q liborocos-kdl <<<"$libraries" || { echo "wheel: no liborocos-kdl to hide, so nothing would be shown" >&2; exit 1; }
+    for library in $libraries; do
+      mount --bind /dev/null "$library"
+      [ ! -s "$library" ] || { echo "wheel: $library is not hidden" >&2; exit 1; }
+    done
     exec "$@"' hidden "$@"
 }
 
