@@ -12,46 +12,20 @@ pythons=("$@")
 [ ${#pythons[@]} -gt 0 ] || pythons=(python3.11)
 work=$root/build/wheel
 dist=$root/dist
-bundled_most=6 size_most=$((2 * 1024 * 1024))
 
 fail() { echo "wheel: $*" >&2; exit 1; }
 
-# What comes from Debian inside a wheel comes with its licence: the packages' own copyright files.
-add_licences() {
-  local wheel=$1 folder=$2 library name package licences
-  rm -rf "$folder" && mkdir -p "$folder"
-  "$work/tools/bin/python" -m wheel unpack -q -d "$folder" "$wheel" 2>/dev/null || "$work/tools/bin/python" -m wheel unpack -d "$folder" "$wheel" >/dev/null
-  licences=$(echo "$folder"/*/*.dist-info)/licenses
-  mkdir -p "$licences"
-  for library in "$folder"/*/dmpcpp.libs/*.so*; do
-    name=$(basename "$library" | sed 's/-[0-9a-f]\{8\}\.so/.so/')
-    package=$(dpkg-query -S "*/$name" 2>/dev/null | head -n 1 | cut -d: -f1)
-    [ -n "$package" ] || fail "$name: no Debian package known, so no licence text"
-    cp "/usr/share/doc/$package/copyright" "$licences/$package.txt"
-  done
-  cp /usr/share/common-licenses/LGPL-2.1 "$licences/LGPL-2.1.txt"
-  rm "$wheel"
-  "$work/tools/bin/python" -m wheel pack -d "$dist" "$folder"/* >/dev/null
-}
-
-check_contents() {
-  local wheel=$1 listing size libraries
-  size=$(stat -c %s "$wheel")
-  listing=$(unzip -l "$wheel")
-  libraries=$(grep -c 'dmpcpp\.libs/.*\.so' <<<"$listing")
-  [ "$size" -le $size_most ] || fail "$wheel: $size bytes, expected at most $size_most"
-  [ "$libraries" -le $bundled_most ] || fail "$wheel: $libraries bundled libraries, expected at most $bundled_most"
-  for needed in 'dmpcpp/py\.typed' 'dmpcpp/_core/__init__\.pyi' 'licenses/LICENSE' 'licenses/liborocos-kdl.*\.txt'; do
-    grep -q "$needed" <<<"$listing" || fail "$wheel: $needed is missing"
-  done
-  ! grep -Eq '\.hpp|\.cmake|\.a$|\.cpp' <<<"$listing" || fail "$wheel: holds headers, sources or static libraries"
-  echo "ok  $(basename "$wheel"): $size bytes, $libraries bundled libraries"
-}
-
-# A mount namespace in which the system's libraries are empty files: what the wheel needs it must bring.
+# A mount namespace in which what the loader finds of the bundled libraries are empty files: what the wheel needs it
+# must bring. Nothing runs unless each of them is seen to be empty.
 without_system_libraries() {
   unshare -m bash -c '
-    for library in /usr/lib/*/lib{orocos-kdl,urdfdom,tinyxml,console_bridge}*.so*; do mount --bind /dev/null "$library"; done
+    set -euo pipefail
+    libraries=$(ldconfig -p | sed -nE "s,^.*lib(orocos-kdl|urdfdom|tinyxml|console_bridge).* => ,,p")
+    grep -q liborocos-kdl <<<"$libraries" || { echo "wheel: no liborocos-kdl to hide, so nothing would be shown" >&2; exit 1; }
+    for library in $libraries; do
+      mount --bind /dev/null "$library"
+      [ ! -s "$library" ] || { echo "wheel: $library is not hidden" >&2; exit 1; }
+    done
     exec "$@"' hidden "$@"
 }
 
@@ -75,14 +49,11 @@ prepare() {
 }
 
 build_wheel() {
-  local python=$1 wheel
+  local python=$1
   rm -rf "$work/plain" && mkdir "$work/plain"
   "$python" -m venv --clear "$work/build"
   PATH="$work/tools/bin:$PATH" "$work/build/bin/pip" wheel -q --disable-pip-version-check --no-deps -w "$work/plain" "$dist"/*.tar.gz
-  PATH="$work/tools/bin:$PATH" "$work/tools/bin/auditwheel" repair -w "$work/repaired" "$work/plain"/*.whl >"$work/repair.log" 2>&1 || { cat "$work/repair.log" >&2; exit 1; }
-  wheel=$(ls -t "$work/repaired"/*.whl | head -n 1)
-  add_licences "$wheel" "$work/unpacked"
-  check_contents "$dist/$(basename "$wheel")"
+  PATH="$work/tools/bin:$PATH" "$root/scripts/repair_wheel.sh" "$work/plain"/*.whl "$dist"
 }
 
 mkdir -p "$work" "$dist"

@@ -75,12 +75,20 @@ void DmpController::plan(const Eigen::VectorXd& measured) {
       dmp::stretched(plan_, std::max(1.0, dmp::duration_factor(plan_, arm_->velocity_limit(), acceleration)));
 }
 
+Eigen::VectorXd DmpController::measured() const {
+  Eigen::VectorXd joints(arm_->joint_count());
+  for (Eigen::Index i = 0; i < joints.size(); ++i) {
+    const auto& state = state_interfaces_[static_cast<std::size_t>(i)];
+    const std::optional<double> position = state.get_optional();
+    if (!position) throw std::runtime_error(state.get_name() + ": could not be read.");
+    joints[i] = *position;
+  }
+  return joints;
+}
+
 CallbackReturn DmpController::on_activate(const rclcpp_lifecycle::State&) {
-  Eigen::VectorXd measured(arm_->joint_count());
-  for (Eigen::Index i = 0; i < measured.size(); ++i)
-    measured[i] = state_interfaces_[static_cast<std::size_t>(i)].get_value();
   try {
-    plan(measured);
+    plan(measured());
   } catch (const std::exception& error) {
     RCLCPP_ERROR(get_node()->get_logger(), "%s", error.what());
     return CallbackReturn::ERROR;
@@ -97,12 +105,13 @@ return_type DmpController::update(const rclcpp::Time&, const rclcpp::Duration& p
   const Eigen::Index next = std::min(sample_ + 1, last);
   const double span = plan_.time[next] - plan_.time[sample_];
   const double share = span > 0.0 ? (elapsed_ - plan_.time[sample_]) / span : 0.0;
+  bool taken = true;  // a joint that refuses keeps none of the others back
   for (Eigen::Index i = 0; i < plan_.position.cols(); ++i) {
     const double from = plan_.position(sample_, i);
-    command_interfaces_[static_cast<std::size_t>(i)].set_value(from +
-                                                               share * (plan_.position(next, i) - from));
+    const double position = from + share * (plan_.position(next, i) - from);
+    taken &= command_interfaces_[static_cast<std::size_t>(i)].set_value(position);
   }
-  return return_type::OK;
+  return taken ? return_type::OK : return_type::ERROR;
 }
 
 }  // namespace dmp_controller

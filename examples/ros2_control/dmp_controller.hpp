@@ -20,13 +20,14 @@ class DmpController : public controller_interface::ControllerInterface {
   controller_interface::InterfaceConfiguration state_interface_configuration() const override;
   /// Reads model and arm: files, memory, exceptions.
   controller_interface::CallbackReturn on_configure(const rclcpp_lifecycle::State& previous) override;
-  /// Plans from the measured joints, slowed down to the joint limits.
+  /// Plans from the measured joints, slowed down to the joint limits. An error where a joint cannot be read.
   controller_interface::CallbackReturn on_activate(const rclcpp_lifecycle::State& previous) override;
-  /// The next joints: takes no memory, no lock, throws nothing.
+  /// The next joints: takes no memory, throws nothing. An error where a joint's command was not taken.
   controller_interface::return_type update(const rclcpp::Time& time, const rclcpp::Duration& period) override;
 
  private:
   std::vector<std::string> interfaces(const std::string& kind) const;
+  Eigen::VectorXd measured() const;  // rad
   void plan(const Eigen::VectorXd& measured);
 
   std::vector<std::string> joints_;

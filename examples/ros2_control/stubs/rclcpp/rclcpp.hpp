@@ -48,4 +48,5 @@ class Node {
 
 }  // namespace rclcpp
 
-#define RCLCPP_ERROR(logger, ...) ((void)(logger), std::fprintf(stderr, __VA_ARGS__))
+#define RCLCPP_ERROR(logger, ...) \
+  ((void)(logger), std::fprintf(stderr, __VA_ARGS__), std::fputc('\n', stderr))
