@@ -84,10 +84,8 @@ TEST_CASE("what is asked of an arm") {
   check(
       "forward_kinematics of many", [](const RowMatrix& q) { return arm().forward_kinematics(q); },
       any_size("q", way()));
-  check(
-      "jacobian", [](const VectorXd& q) { return arm().jacobian(q); }, argument("q", joints()));
-  check(
-      "manipulability", [](const VectorXd& q) { return arm().manipulability(q); }, argument("q", joints()));
+  check("jacobian", [](const VectorXd& q) { return arm().jacobian(q); }, argument("q", joints()));
+  check("manipulability", [](const VectorXd& q) { return arm().manipulability(q); }, argument("q", joints()));
   check(
       "with_limits",
       [](const VectorXd& lower, const VectorXd& upper, const VectorXd& velocity, const VectorXd& effort) {
@@ -167,7 +165,7 @@ TEST_CASE("paths") {
   check_option("position_tolerance", one, &FollowOptions::position_tolerance, or_infinite("value", 1e-5),
                with);
   check_option("angle_tolerance", one, &FollowOptions::angle_tolerance, or_infinite("value", 1e-5), with);
-  for (int FollowOptions::*member : {&FollowOptions::anchors, &FollowOptions::starts})
+  for (int FollowOptions::* member : {&FollowOptions::anchors, &FollowOptions::starts})
     for (const int value : {0, -1, INT_MIN}) {
       FollowOptions options = one;
       options.*member = value;
@@ -188,9 +186,7 @@ TEST_CASE("timing of joints") {
       argument("factor", 2.0));
   check(
       "time_optimal",
-      [](const VectorXd& v, const VectorXd& a) {
-        return numbers_of(time_optimal(motion(), {v, a, {}}));
-      },
+      [](const VectorXd& v, const VectorXd& a) { return numbers_of(time_optimal(motion(), {v, a, {}})); },
       or_infinite("velocity", ones()), argument("acceleration", ones()));
   check(
       "time_optimal of an arm",

@@ -84,14 +84,12 @@ void check_call(const AnyRun& run, const Call& call, const Argument<T>& argument
 template <class AnyRun, class Place, class Velocity>
 void check_run(AnyRun run, const Place& place, const Velocity& velocity) {
   run.step(0.3);
-  check_call(
-      run, [](AnyRun& r, double dt) { return r.step(dt); }, argument("dt", 0.1));
+  check_call(run, [](AnyRun& r, double dt) { return r.step(dt); }, argument("dt", 0.1));
   check_call(
       run, [](AnyRun& r, double duration) { return r.set_duration(duration); }, argument("duration", 1.0));
   check_call(
       run, [](AnyRun& r, double error) { return r.set_tracking_error(error); }, argument("error", 0.1));
-  check_call(
-      run, [](AnyRun& r, const Place& goal) { return r.set_goal(goal); }, argument("goal", place));
+  check_call(run, [](AnyRun& r, const Place& goal) { return r.set_goal(goal); }, argument("goal", place));
   check_call(
       run, [&](AnyRun& r, const Place& start) { return r.start_from(start, velocity); },
       argument("place", place));

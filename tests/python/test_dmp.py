@@ -338,3 +338,36 @@ def test_quaternions_in_either_order_make_the_same_demonstration():
     np.testing.assert_allclose(both.pose[:, :3, :3], rotation, atol=1e-15)
     with pytest.raises(InvalidArgument, match="order: 'zyx' is unknown, expected wxyz or xyzw"):
         dmpcpp.OrientationDemonstration.from_quaternions(time, xyzw, "zyx")
+
+
+def test_a_class_that_adds_to_options_keeps_its_fields_through_a_pickle():
+    assert Extended(alpha=5.0) != Extended(alpha=6.0)
+    assert repr(Extended(alpha=5.0)) == "Extended(alpha=5.0)"
+    assert pickle.loads(pickle.dumps(Extended(alpha=5.0))).alpha == 5.0
+
+
+class Extended(dmpcpp.DmpOptions):
+    pass
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"kernels": 3}, "kernels: 3 is unknown, expected one of equal_in_time, source"),
+        ({"kernels": dmpcpp.Scaling.none}, r"kernels: <Scaling.none: 0> is unknown, expected one of"),
+        ({"source": 3}, "options: 'source' is unknown"),
+        ({"__eq__": 3}, "options: '__eq__' is unknown"),
+    ],
+)
+def test_what_is_no_field_or_no_enumerator_is_refused_by_name(fields, message):
+    with pytest.raises(InvalidArgument, match=message):
+        dmpcpp.DmpOptions(**fields)
+    with pytest.raises(InvalidArgument, match=message):
+        Dmp.fit(helix(), **fields)
+
+
+def test_a_message_about_a_name_that_is_no_text_can_be_read():
+    with pytest.raises(dmpcpp.FileError, match=r"xff.json: can not be read"):
+        dmpcpp.load(b"/no/such/\xff.json")
+    with pytest.raises(dmpcpp.FileError, match=r"xff.urdf: can not be read"):
+        dmpcpp.Arm.from_urdf_file("/no/such/\udcff.urdf")

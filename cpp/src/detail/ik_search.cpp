@@ -10,9 +10,8 @@ constexpr std::size_t carried_on = 24;
 }
 
 IkSearch::IkSearch(const ChainModel& model, const IkOptions& options)
-    : tolerances_{options.position_tolerance,
-                  options.angle_tolerance,
-                  {options.weight, options.angle_weight}},
+    : tolerances_{
+          options.position_tolerance, options.angle_tolerance, {options.weight, options.angle_weight}},
       iteration_limit_(options.iteration_limit),
       random_seed_(options.random_seed),
       range_(model),

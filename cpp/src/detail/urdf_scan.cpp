@@ -36,7 +36,8 @@ std::size_t end_of_tag(const std::string& text, std::size_t at) {
   return at;
 }
 
-/// Whether a tag of TinyXML's begins an element or ends one; all else ('<6', '<?', '<!') it passes over up to '>'.
+/// Whether a tag of TinyXML's begins an element or ends one; all else ('<6', '<?', '<!') it passes over up to
+/// '>'.
 bool is_element(char after) {
   const auto byte = static_cast<unsigned char>(after);
   return std::isalpha(byte) || byte >= 127 || after == '_' || after == '/';
