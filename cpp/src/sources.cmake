@@ -1,6 +1,7 @@
 # The sources of each library; paths relative to this folder.
 set(DMP_core_SOURCES
   align.cpp
+  alignment.cpp
   average.cpp
   basis.cpp
   batch.cpp

@@ -17,7 +17,7 @@ using Model = std::variant<Dmp, OrientationDmp, PoseDmp>;
 DMP_EXPORT std::string to_json(const Model& model);
 /// Throws InvalidArgument, naming the place, for text that is no JSON, another format, another version, an
 /// unknown kind or enumerator, a missing or repeated key, wrong sizes or numbers; for more than 64 MiB,
-/// 10^6 numbers, or 100 keys in one object.
+/// 10^6 numbers or lists, 100 objects, or 100 keys in one.
 DMP_EXPORT Model from_json(const std::string& text);
 
 /// Writes a temporary file beside `path`, flushes it to disk and renames it: the file is there whole or not

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr std::size_t kMostNumbers = 1000000;
-constexpr std::size_t kMostKeys = 100;  // of one object, whose keys are looked up one after the other
+constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
+constexpr std::size_t kMostObjects = 100;  // after each the parser looks through all that its parent holds
 constexpr int kDeepest = 8;
 
 const Names<Kernels> kKernels{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
@@ -103,16 +104,18 @@ Parameters read(const Json& json) {
 }
 
 /// Refuses what a plain parse would take: repeated keys, deep nesting, too many values, lists or objects, and
-/// objects of so many keys that looking one up takes long.
+/// objects of too many keys.
 class Guard {
  public:
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
     if (depth > kDeepest)
       throw InvalidArgument("model: nested deeper than " + std::to_string(kDeepest) + " levels.");
-    const bool begins = event == Event::array_start || event == Event::object_start;
-    if ((event == Event::value && ++values_ > kMostNumbers) || (begins && ++lists_ > kMostNumbers))
-      throw InvalidArgument("model: more than 10^6 values, lists or objects.");
+    if ((event == Event::value && ++values_ > kMostNumbers) ||
+        (event == Event::array_start && ++lists_ > kMostNumbers))
+      throw InvalidArgument("model: more than 10^6 values or lists.");
+    if (event == Event::object_start && ++objects_ > kMostObjects)
+      throw InvalidArgument("model: more than " + std::to_string(kMostObjects) + " objects.");
     if (event == Event::object_start) keys_.emplace_back();
     if (event == Event::object_end) keys_.pop_back();
     if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)
@@ -125,6 +128,7 @@ class Guard {
  private:
   std::size_t values_ = 0;
   std::size_t lists_ = 0;
+  std::size_t objects_ = 0;
   std::vector<std::set<std::string>> keys_;
 };
 

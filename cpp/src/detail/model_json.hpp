@@ -8,8 +8,8 @@
 
 namespace dmp::detail {
 
-/// Text to JSON, refusing repeated keys, deep nesting, more than 100 keys in one object and more than 10^6
-/// numbers, lists or objects while it is read.
+/// Text to JSON, refusing repeated keys, deep nesting, more than 100 objects or keys in one of them, and
+/// more than 10^6 numbers or lists, while it is read.
 Json parse_json(const std::string& text);
 /// Throws InvalidArgument for a model that the reader would refuse for its size.
 void require_readable(const Model& model);

@@ -171,8 +171,13 @@ def _shadow(axes: Any, position: Array) -> None:
 def _errors(
     axes: Axes, curves: Sequence[ErrorCurve], field: str, scale: float, label: str, limit: float | None
 ) -> Axes:
+    shown = [np.maximum(getattr(curve, field), _FLOOR_OF_LOG) for curve in curves]
+    axes.set_yscale("log")
+    if limit is None and len({float(value) for values in shown for value in values}) == 1:
+        lowest = scale * float(shown[0][0])
+        axes.set_ylim(0.1 * lowest, 10.0 * lowest)  # before anything is drawn: one value alone has no height
     for k, curve in enumerate(curves):
-        time, values = _envelope(curve.time, np.maximum(getattr(curve, field), _FLOOR_OF_LOG))
+        time, values = _envelope(curve.time, shown[k])
         stroke = {"color": _STAGE_COLOURS[k % 4], "linestyle": _STAGE_STROKES[k % 4], "linewidth": 1.5}
         axes.plot(time, values * scale, label=curve.label, **stroke)
     if limit is not None:
@@ -180,7 +185,6 @@ def _errors(
     if any((getattr(curve, field) < _FLOOR_OF_LOG).any() for curve in curves):
         note = f"the lowest line is {_FLOOR_OF_LOG * scale:.0e} or less"
         axes.text(0.995, 0.065, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=7, color=FAINT)
-    axes.set_yscale("log")
     axes.set_ylabel(label, color=INK)
     plain(axes).minorticks_off()
     return axes

@@ -194,8 +194,8 @@ def _require_near(chosen: Markers) -> None:
     farthest = float(np.abs(chosen.position[~chosen.missing]).max(initial=0.0))
     if farthest > _FARTHEST:
         raise InvalidArgument(
-            f"markers: one is {farthest:.3g} m from the origin, expected at most {_FARTHEST:g} m. State the unit, or crop "
-            "such frames out."
+            f"markers: one is {farthest:.3g} m from the origin, expected at most {_FARTHEST:g} m. State the unit, or "
+            "crop such frames out."
         )
 
 
