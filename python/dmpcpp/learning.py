@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+
+import numpy as np
 
 from dmpcpp import metrics
-from dmpcpp._core import PoseDemonstration, PoseDmp
+from dmpcpp._core import Derivatives, PoseDemonstration, PoseDmp
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.simulation import Check
@@ -18,6 +21,8 @@ _KERNELS_PER_SAMPLE = 4  # more than that would learn the spline between the sam
 _LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE; what a reproduction must reach
 _MOST_POSITION, _MOST_ANGLE = 8e-3, math.radians(1.5)  # m, rad; what noise can excuse: fast motions look like it
 _LIMIT_NOISE = 3.0  # times the noise per axis; a motion without its noise lies sqrt(3) times it from the samples
+_SHAKEN = 5.0  # times; people's fast motions come to 3 with what looks like noise in them, calm ones with noise to 1000
+_SAMPLES = 1000  # at which accelerations are looked at
 _GOOD_NOISE = 1.8  # likewise, what more kernels can not get below
 
 
@@ -37,7 +42,8 @@ def learn(
         The number of kernels instead.
     noise : Noise, optional
         What was found in the demonstration (`motion.noise`). Where a model without it would miss 1 mm or 0.5 deg,
-        smoothing it out is tried first, and 1.8 times the noise per axis is close enough.
+        smoothing it out is tried first, and 1.8 times the noise per axis is close enough. Where it would not, noise is
+        smoothed out all the same if it makes the accelerations: if they are five times as large with it.
     smooth : bool
         Whether noise may be smoothed out; without it being known, this is tried where even the most kernels do not
         reproduce the motion. The model's options tell: `derivatives` is "smooth".
@@ -47,16 +53,27 @@ def learn(
     PoseDmp
         The first that is close enough, or the one that came closest.
     """
-    noise = noise or Noise(0.0, 0.0)
-    noisy = math.sqrt(3.0) * noise.position > _LIMIT_POSITION or math.sqrt(3.0) * noise.angle > _LIMIT_ANGLE
-    noise = _believed(noise) if noisy and smooth else Noise(0.0, 0.0)
-    if basis_count is not None:
-        derivatives = "smooth" if smooth and noisy else "interpolate"
-        return PoseDmp.fit(demonstration, basis_count=basis_count, derivatives=derivatives)
+    known = noise is not None and max(noise.position, noise.angle) > 0.0
+    believed = _believed(noise or Noise(0.0, 0.0))
+    noisy = _is_noisy(noise or Noise(0.0, 0.0)) and smooth
+    counts = _KERNELS if basis_count is None else (basis_count,)
     ways = ("interpolate",) if not smooth else ("smooth", "interpolate") if noisy else ("interpolate", "smooth")
+    if basis_count is not None:
+        ways = ways[:1]
+    model = _closest(demonstration, ways, counts, believed if noisy else Noise(0.0, 0.0))[1]
+    if not (known and smooth) or model.options.derivatives == Derivatives.smooth:
+        return model
+    miss, calm = _closest(demonstration, ("smooth",), counts, believed)
+    return calm if miss <= 1.0 and _is_shaken(model, calm) else model
+
+
+def _closest(
+    demonstration: PoseDemonstration, ways: Sequence[str], counts: Sequence[int], noise: Noise
+) -> tuple[float, PoseDmp]:
+    """Return the first model that is close enough, or the closest, and how many times further off than that it is."""
     best: tuple[float, PoseDmp] | None = None
     for derivatives in ways:  # noise is learned with the motion unless it is taken out
-        for count in _KERNELS:
+        for count in counts:
             if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
                 break
             model = PoseDmp.fit(demonstration, basis_count=count, derivatives=derivatives)
@@ -64,9 +81,25 @@ def learn(
             if best is None or miss < best[0]:
                 best = miss, model
             if miss <= 1.0:
-                return model
+                return miss, model
     assert best is not None
-    return best[1]
+    return best
+
+
+def _is_noisy(noise: Noise) -> bool:
+    return math.sqrt(3.0) * noise.position > _LIMIT_POSITION or math.sqrt(3.0) * noise.angle > _LIMIT_ANGLE
+
+
+def _is_shaken(model: PoseDmp, calm: PoseDmp) -> bool:
+    """Whether the noise, and not the motion, makes a model's accelerations: they bound how fast an arm can be."""
+    with_noise, without = (_largest_accelerations(each) for each in (model, calm))
+    return any(a > _SHAKEN * b for a, b in zip(with_noise, without, strict=True))
+
+
+def _largest_accelerations(model: PoseDmp) -> tuple[float, float]:
+    """Return the largest acceleration [m/s^2] and angular acceleration [rad/s^2] of the motion."""
+    rate = model.rollout(dt=model.duration / _SAMPLES).acceleration
+    return float(np.linalg.norm(rate[:, :3], axis=1).max()), float(np.linalg.norm(rate[:, 3:], axis=1).max())
 
 
 def reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from dmpcpp import motion, retarget, simulation
-from dmpcpp._core import Arm, FitReport, PoseDemonstration, PoseDmp, assess
+from dmpcpp._core import Arm, Derivatives, DmpOptions, FitReport, PoseDemonstration, PoseDmp, assess
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.imitation import clear_of_itself
 from dmpcpp.learning import learn, reproduction, reproduction_checks
@@ -101,12 +101,21 @@ def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, sm
         learn(demonstration, basis_count, noise=found, smooth=smooth)
         for demonstration, found in zip(demonstrations, noise, strict=True)
     ]
-    most = max(alone, key=lambda model: model.options.basis_count)
     if len(alone) == 1:
-        model, checks = most, reproduction_checks(reproduction(most, demonstrations[0]), noise[0])
+        model, checks = alone[0], reproduction_checks(reproduction(alone[0], demonstrations[0]), noise[0])
     else:
-        model, checks = PoseDmp.fit(list(demonstrations), most.options), ()
+        model, checks = PoseDmp.fit(list(demonstrations), _options_of(alone)), ()
     return Lesson(kept, demonstrations, model, assess(model, list(demonstrations)), noise, tuple(checks))
+
+
+def _options_of(models: Sequence[PoseDmp]) -> DmpOptions:
+    """Return the options with which motions are learned together that were learned alone: those of the most kernels,
+    and smoothed if any of them had to be.
+    """
+    options = max(models, key=lambda model: model.options.basis_count).options
+    if any(model.options.derivatives == Derivatives.smooth for model in models):
+        options.derivatives = Derivatives.smooth
+    return options
 
 
 def placed(

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from dmpcpp import learning, motion
+from dmpcpp import learning, motion, teaching
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise, Preparation, prepare
@@ -19,12 +19,40 @@ def noisy(sigma: float):
 
 
 def test_noise_is_smoothed_out_in_learning_and_clean_motions_are_not_touched():
-    for sigma, derivatives in ((0.0, "interpolate"), (0.3e-3, "interpolate"), (2e-3, "smooth")):
+    for sigma, derivatives in ((0.0, "interpolate"), (0.02e-3, "smooth"), (0.3e-3, "smooth"), (2e-3, "smooth")):
         recording = noisy(sigma)
         model = learning.learn(motion.demonstration(recording), noise=motion.noise(recording))
         assert model.options.derivatives.name == derivatives
     errors = learning.reproduction(model, motion.demonstration(reaches(1)))
     assert errors.position_rmse < 2e-3  # of the truth: less than the noise of one axis
+
+
+def test_noise_that_makes_the_accelerations_is_smoothed_out_however_small():
+    """An arm can be as fast as the accelerations allow: noise of 0.2 mm would slow a calm reach down many times."""
+    truth = motion.demonstration(reaches(1))
+    recording = noisy(0.2e-3)
+    found, demonstration = motion.noise(recording), motion.demonstration(recording)
+    calm = learning.learn(demonstration, noise=found)
+    shaken = learning.learn(demonstration, noise=found, smooth=False)
+    peak = {
+        name: np.abs(model.rollout(dt=0.01).acceleration[:, :3]).max()
+        for name, model in (("calm", calm), ("shaken", shaken), ("true", learning.learn(truth)))
+    }
+    assert peak["calm"] < 1.5 * peak["true"]
+    assert peak["shaken"] > 5.0 * peak["true"]
+    assert learning.reproduction(calm, truth).position_rmse < 0.2e-3
+    assert learning.learn(demonstration, 60, noise=found).options.derivatives.name == "smooth"
+
+
+def test_several_takes_are_smoothed_if_one_of_them_has_to_be():
+    clean = reaches(1)
+    other = clean.with_(
+        "", position=clean.position + np.random.default_rng(5).normal(0.0, 0.2e-3, clean.position.shape)
+    )
+    for takes in ((noisy(0.2e-3), other), (clean, other), (other, clean)):
+        lesson = teaching.teach(takes)
+        assert lesson.model.options.derivatives.name == "smooth"
+        assert lesson.fit.rmse[:3].max() < 0.3e-3
 
 
 def test_smoothing_can_be_forbidden():
