@@ -30,6 +30,7 @@ from dmpcpp._core import (
 )
 from dmpcpp.atomic import write_text
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.retarget.farthest_reach import require_within_reach
 from dmpcpp.simulation import Check, Checked, Simulator, Tolerances
 
 __all__ = ["JointPlan", "plan", "write"]
@@ -116,6 +117,7 @@ def plan(
         raise InvalidArgument(f"duration: {wanted}, expected a positive number of seconds.")
     samples = max(_SAMPLES, 10 * model.options.basis_count)
     motion = model.rollout(goal, wanted, wanted / samples)
+    require_within_reach(motion.pose[-1][:3, 3], arm, "goal: the end of the motion")
     joints = _joints(arm, motion, start, simulator)
     factor = _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm))
     slowdown = max(1.0, factor) if slow_down and np.isfinite(factor) else 1.0

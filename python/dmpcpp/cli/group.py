@@ -48,7 +48,7 @@ class _Group(click.Group):
         try:
             return super().invoke(ctx)
         except (InvalidArgument, MissingDependency, OSError) as error:
-            click.echo(f"dmpcpp: {in_flags(str(error), self._options(ctx))}", err=True)
+            click.echo(f"dmpcpp: {in_flags(_said(error), self._options(ctx))}", err=True)
             ctx.exit(WRONG_INPUT)
         except KeyboardInterrupt:
             click.echo("dmpcpp: interrupted.", err=True)
@@ -61,6 +61,13 @@ class _Group(click.Group):
         """Return the names of the options of the command that runs."""
         command = self.get_command(ctx, ctx.invoked_subcommand or "")
         return {parameter.name or "" for parameter in command.params} if command else set()
+
+
+def _said(error: Exception) -> str:
+    """Return a message of the library as it is, and one of the system with the file first and without its number."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}."
+    return str(error)
 
 
 @click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -17,7 +17,7 @@ from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.placing import placing_options, taken_placing
 from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
-from dmpcpp.cli.tables import checks_table, note_style
+from dmpcpp.cli.tables import checks_table, note_style, way
 from dmpcpp.errors import MissingDependency
 
 if TYPE_CHECKING:
@@ -211,9 +211,13 @@ def _print(run: Imitation, out: Path) -> None:
     console = Console(highlight=False)
     for line in run.recording.history:
         console.print(line, style=note_style(line), soft_wrap=True, markup=False)
+    for line in run.log.arm.warnings:
+        console.print(f"arm: {line}", style="yellow", soft_wrap=True, markup=False)
     console.print(
         f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, "
-        f"{run.slowdown:.2f} x the recorded duration"
+        f"{run.slowdown:.2f} x the recorded duration; {way(run.model)} m in the frame of '{run.log.arm.base}'",
+        soft_wrap=True,
+        markup=False,
     )
     console.print(_errors_table(run, Table))
     console.print(checks_table(run.checks))

@@ -16,7 +16,7 @@ from dmpcpp.cli.options import arm_options
 from dmpcpp.cli.placing import scale_range
 from dmpcpp.cli.preparation import preparation_options, taken_preparation
 from dmpcpp.cli.recording_options import recording_options, taken_recording
-from dmpcpp.cli.tables import checks_table, note_style
+from dmpcpp.cli.tables import checks_table, note_style, way
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -107,7 +107,10 @@ def _print_lesson(lesson: Lesson, out: Path) -> None:
     if lesson.checks:
         console.print(checks_table(lesson.checks))
     console.print(
-        f"{lesson.model.options.basis_count} kernels, {lesson.model.duration:.2f} s; written to {out}", markup=False
+        f"{lesson.model.options.basis_count} kernels, {lesson.model.duration:.2f} s, {way(lesson.model)} m; "
+        f"written to {out}",
+        soft_wrap=True,
+        markup=False,
     )
 
 

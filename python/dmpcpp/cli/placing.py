@@ -55,6 +55,8 @@ def placing_options(command: Callable[..., None]) -> Callable[..., None]:
 def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
     """Take the options out of a command's arguments: `place` and `scale` of `imitation.imitate`."""
     no_place: bool = options.pop("no_place")
+    if no_place and options["scale"]:
+        raise InvalidArgument("--scale: not together with --no-place, which takes the poses as they are.")
     scale = scale_range(options.pop("scale"))
     given = {name: options.pop(name) for name in (*_ANCHORS, "shoulder", "yaw", "tool_rotation")}
     given = {name: value for name, value in given.items() if value is not None}

@@ -8,12 +8,19 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from dmpcpp._core import PoseDmp
     from dmpcpp.simulation import Check
 
 
 def note_style(note: str) -> str:
     """How a line of a recording's history is printed: what warns is not to be overlooked."""
     return "bold yellow" if note.startswith("WARNING") else "dim"
+
+
+def way(model: PoseDmp) -> str:
+    """Where a model's motion begins and ends, as --goal takes it."""
+    start, goal = (",".join(f"{x:.3f}" for x in pose[:3, 3]) for pose in (model.start, model.goal))
+    return f"from {start} to {goal}"
 
 
 def checks_table(checks: Iterable[Check]) -> Table:

@@ -16,7 +16,7 @@ from dmpcpp import motion
 from dmpcpp._core import Arm, InverseKinematics
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array, Recording
-from dmpcpp.retarget.farthest_reach import farthest_reach
+from dmpcpp.retarget.farthest_reach import require_within_reach
 from dmpcpp.retarget.following import EFFORT, Accept, to_follow
 from dmpcpp.retarget.placement import Placement
 
@@ -29,7 +29,6 @@ _SCALES = 5
 _YAWS = 24
 _TOOLS = 24  # random tool rotations, where none is given
 _FOLLOWED = 8  # candidates of one scale that are followed from end to end at most
-_TOLERANCE = 1e-3  # m; of the figures in a robot's description
 _FEW = 5  # every fifth of the coarse poses is looked at first: most candidates miss one of them
 
 
@@ -187,14 +186,7 @@ def _within_length(arm: Arm, at: ArrayLike, on: Anchor | ArrayLike) -> None:
     point = at[:3, 3] if at.shape == (4, 4) else at
     if point.shape != (3,):
         return  # which `anchor` names
-    centre, most = farthest_reach(arm)
-    away = float(np.linalg.norm(point - centre))
-    if away > most + _TOLERANCE:
-        where = ", ".join(f"{x:g}" for x in point)
-        raise InvalidArgument(
-            f"at: the {on} of the motion at ({where}) m lies {away:.3g} m from the first joint of arm {arm.name!r}, "
-            f"which is {most:.3g} m long stretched out. State a point nearer to it, in m in the frame of {arm.base!r}."
-        )
+    require_within_reach(point, arm, f"at: the {on} of the motion")
 
 
 def _candidates(

@@ -5,12 +5,16 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm
+from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings.recording import Array
 
-__all__ = ["farthest_reach"]
+__all__ = ["farthest_reach", "require_within_reach"]
+
+_TOLERANCE = 1e-3  # m; of the figures in a robot's description
 
 
 def farthest_reach(arm: Arm) -> tuple[Array, float]:
@@ -24,6 +28,25 @@ def farthest_reach(arm: Arm) -> tuple[Array, float]:
         return _ball(_chain(arm), arm)
     except (ET.ParseError, ValueError):  # the arm was read by a parser that bears more
         return np.zeros(3), np.inf
+
+
+def require_within_reach(point: ArrayLike, arm: Arm, what: str) -> None:
+    """Refuse a place (3,) [m, base frame] that is farther away than an arm is long; `what` names it in the message.
+
+    Raises
+    ------
+    InvalidArgument
+        With the distance and the arm's length.
+    """
+    place = np.asarray(point, dtype=np.float64)
+    centre, most = farthest_reach(arm)
+    away = float(np.linalg.norm(place - centre))
+    if away > most + _TOLERANCE:
+        where = ", ".join(f"{x:g}" for x in place)
+        raise InvalidArgument(
+            f"{what} at ({where}) m lies {away:.3g} m from the first joint of arm {arm.name!r}, which is {most:.3g} m "
+            f"long stretched out. State a point nearer to it, in m in the frame of {arm.base!r}."
+        )
 
 
 def _chain(arm: Arm) -> list[ET.Element]:

@@ -71,7 +71,7 @@ def _terms(
 
 def _first_root(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> NDArray[np.float64]:
     """Smallest root s > 0 of a s^2 + b s + c, infinity where there is none."""
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # a joint without a limit has a huge one
         root = np.sqrt(b * b - 4.0 * a * c)
         q = -0.5 * (b + np.copysign(root, b))  # the two roots are q / a and c / q, without cancellation
         roots = np.stack([q / a, c / q])
