@@ -39,6 +39,12 @@ def test_a_little_motion_or_a_little_turn_is_enough(extent, turn):
     assert motion.implausible(moving(extent, turn)) == ""
 
 
+def test_who_turns_on_the_spot_is_taken_with_a_warning():
+    history = motion.plausible(moving(0.4e-3, 1.0)).history
+    assert history[-1] == "WARNING: moves over 0.4 mm only and turns by 57 deg: is the unit of its lengths right?"
+    assert motion.plausible(moving(2e-3, 1.0)).history == ()
+
+
 def test_who_neither_moves_nor_turns_stands_still():
     with pytest.raises(InvalidArgument, match=r"'hand' stands still: .* over 0\.5 mm and turns by 0\.3 deg in 2 s"):
         motion.plausible(STILL)

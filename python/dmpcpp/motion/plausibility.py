@@ -13,13 +13,15 @@ from dmpcpp.recordings.recording import Array, Recording
 __all__ = ["implausible", "plausible"]
 
 _STILL_POSITION, _STILL_ANGLE = 1e-3, np.radians(0.5)  # m, rad; who moves less than both stands still
+_TURNS = np.radians(20.0)  # rad; a hand that turns so far moves, too
 _FASTEST = 30.0  # m/s; above what any hand does, far below cm or mm read as m
 _WINDOW = 0.05  # s; over less than that a glitch or noise passes for speed
 _NEIGHBOURS = 3  # samples whose median takes a single glitch out
 
 
 def plausible(recording: Recording) -> Recording:
-    """Return the recording if it can be the motion of a hand.
+    """Return the recording if it can be the motion of a hand; its history warns of one that turns on the spot, as one
+    does whose lengths were read in too small a unit.
 
     Raises
     ------
@@ -29,6 +31,12 @@ def plausible(recording: Recording) -> Recording:
     if reason := implausible(recording):
         source = f" in {recording.source}" if recording.source else ""
         raise InvalidArgument(f"position: the body {recording.body!r}{source} {reason}")
+    extent, angle = _covered(recording, ~recording.missing)
+    if extent < _STILL_POSITION and angle > _TURNS:
+        return recording.with_(
+            f"WARNING: moves over {1e3 * extent:.2g} mm only and turns by {np.degrees(angle):.0f} deg: is the unit of "
+            "its lengths right?"
+        )
     return recording
 
 
@@ -44,9 +52,7 @@ def implausible(recording: Recording) -> str:
 
 
 def _stillness(recording: Recording, there: NDArray[np.bool_]) -> str:
-    extent = float(np.linalg.norm(np.ptp(recording.position[there], axis=0)))
-    rotation = Rotation.from_matrix(recording.rotation[there])
-    angle = float((rotation[0].inv() * rotation).magnitude().max())
+    extent, angle = _covered(recording, there)
     if extent >= _STILL_POSITION or angle >= _STILL_ANGLE:
         return ""
     return (
@@ -55,6 +61,13 @@ def _stillness(recording: Recording, there: NDArray[np.bool_]) -> str:
         f"{np.degrees(_STILL_ANGLE):g} deg. Choose another body or another part of the recording, or state the unit of "
         "its lengths."
     )
+
+
+def _covered(recording: Recording, there: NDArray[np.bool_]) -> tuple[float, float]:
+    """Return the diagonal of the box that holds the positions [m] and the largest turn from the first sample [rad]."""
+    rotation = Rotation.from_matrix(recording.rotation[there])
+    extent = float(np.linalg.norm(np.ptp(recording.position[there], axis=0)))
+    return extent, float((rotation[0].inv() * rotation).magnitude().max())
 
 
 def _haste(time: Array, position: Array) -> str:
