@@ -19,7 +19,7 @@ def noisy(sigma: float):
 
 
 def test_noise_is_smoothed_out_in_learning_and_clean_motions_are_not_touched():
-    for sigma, derivatives in ((0.0, "interpolate"), (0.02e-3, "smooth"), (0.3e-3, "smooth"), (2e-3, "smooth")):
+    for sigma, derivatives in ((0.0, "interpolate"), (0.02e-3, "interpolate"), (0.3e-3, "smooth"), (2e-3, "smooth")):
         recording = noisy(sigma)
         model = learning.learn(motion.demonstration(recording), noise=motion.noise(recording))
         assert model.options.derivatives.name == derivatives

@@ -1208,7 +1208,7 @@ class Arm:
         Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.
         """
     @staticmethod
-    def from_urdf_file(path: typing.Any, base: str = '', tip: str = '') -> Arm:
+    def from_urdf_file(path: os.PathLike | str | bytes, base: str = '', tip: str = '') -> Arm:
         """
         Read a URDF from a file and keep its folder. Raises FileError if it can not be read.
         """
@@ -1255,7 +1255,7 @@ class Arm:
         Number of free joints, n.
         """
     @property
-    def joint_names(self) -> list[str]:
+    def joint_names(self) -> list:
         """
         Names of the n free joints, from base to tip.
         """
@@ -1290,7 +1290,7 @@ class Arm:
         (n,) rad/s or m/s; inf where the URDF states none.
         """
     @property
-    def warnings(self) -> list[str]:
+    def warnings(self) -> list:
         """
         What is doubtful in the URDF, one sentence each.
         """
@@ -1312,7 +1312,11 @@ class IkResult:
     """
     The joints whose tip is at the pose, or as close to it as the search came.
     """
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], IkStatus, float, float, int, float, list[int]]:
+        ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def angle_error(self) -> float:
@@ -1354,6 +1358,10 @@ class IkBatch:
     """
     What solve_many found for N poses.
     """
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], list[IkStatus], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], int]:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
     @property
     def angle_error(self) -> numpy.typing.NDArray[numpy.float64]:
         """
