@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from dmpcpp.cli import config, main
 from dmpcpp.report.record import RunRecord, write_record
 
 from tests.python.command import run, write_hand
@@ -33,6 +34,14 @@ def test_the_command_line_wins_over_the_file(tmp_path):
     assert done.returncode == 0, done.stderr
     assert '"basis_count": 40' in done.stdout
     assert "basis-count = 40" in (tmp_path / "model.config.toml").read_text()
+
+
+def test_options_are_called_in_a_file_as_on_the_command_line():
+    for command in main.commands.values():
+        for key in config._keys(command):
+            options = {option.lstrip("-") for parameter in command.params for option in parameter.opts}
+            assert key in options, f"{command.name}: {key}"
+    assert config._keys(main.commands["imitate"])["export"] == "formats"
 
 
 def test_an_interrupted_run_leaves_nothing_half_written(tmp_path):

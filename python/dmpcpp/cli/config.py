@@ -43,9 +43,9 @@ def save_config(path: Path) -> None:
         f"# dmpcpp {__version__}. To repeat: dmpcpp {name} --config {path.name}",
         f"[{name}]",
         *(
-            f"{key.replace('_', '-')} = {_toml(value)}"
-            for key, value in context.params.items()
-            if key not in _NOT_SAVED and value is not None and value != ()
+            f"{key} = {_toml(context.params[name])}"
+            for key, name in _keys(context.command).items()
+            if name in context.params and name not in _NOT_SAVED and context.params[name] not in (None, ())
         ),
     ]
     write_text(path, "\n".join(lines) + "\n")
@@ -54,18 +54,28 @@ def save_config(path: Path) -> None:
 def _take(context: click.Context, _: click.Parameter, path: Path | None) -> None:
     if path is None:
         return
-    known = {p.name: p for p in context.command.params if p.name not in ("config", "help")}
+    known, parameters = _keys(context.command), {p.name: p for p in context.command.params}
     taken = {}
     for key, value in _table(path, str(context.command.name)).items():
-        name = key.replace("-", "_")
-        if name not in known:
-            near = difflib.get_close_matches(name, [str(k) for k in known], n=1)
-            hint = f" Did you mean '{near[0].replace('_', '-')}'?" if near else ""
-            options = ", ".join(sorted(str(k).replace("_", "-") for k in known))
-            raise InvalidArgument(f"--config: {path}: '{key}', expected one of {options}.{hint}")
-        _require_type(context, known[name], value, f"--config: {path}: {key}")
+        name = known.get(key.replace("_", "-"))
+        if name is None:
+            near = difflib.get_close_matches(key, known, n=1)
+            hint = f" Did you mean '{near[0]}'?" if near else ""
+            raise InvalidArgument(f"--config: {path}: '{key}', expected one of {', '.join(sorted(known))}.{hint}")
+        _require_type(context, parameters[name], value, f"--config: {path}: {key}")
         taken[name] = value
     context.default_map = taken
+
+
+def _keys(command: click.Command) -> dict[str, str]:
+    """Return the names of parameters by what they are called in a file: as on the command line, without the dashes."""
+    keys = {}
+    for parameter in command.params:
+        flags = [flag for flag in parameter.opts if flag.startswith("--")]
+        key = max(flags, key=len)[2:] if flags else str(parameter.name)
+        if key not in ("config", "help"):
+            keys[key.replace("_", "-")] = str(parameter.name)
+    return keys
 
 
 def _require_type(context: click.Context, parameter: click.Parameter, value: Any, where: str) -> None:
