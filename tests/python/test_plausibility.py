@@ -1,5 +1,7 @@
 """What can not be the motion of a hand is refused before anything is searched, and inspection says so."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from dmpcpp import InvalidArgument, imitation, inspection, motion, teaching
@@ -108,8 +110,9 @@ def test_inspection_calls_it_a_problem_and_the_command_names_its_options(recordi
     assert not found.ok and any(message in problem for problem in found.problems)
     said = run("inspect", path, "--unit", "m", "--up", "z", cwd=tmp_path)
     assert said.returncode == 3 and message in said.stdout and "unit='" not in said.stdout
-    for command in ("imitate", "fit"):
-        done = run(command, path, "--unit", "m", cwd=tmp_path)
+    arm = Path(__file__).parents[2] / "examples" / "arm.urdf"
+    for command in (("imitate", "--arm", arm), ("fit",)):
+        done = run(*command, path, "--unit", "m", cwd=tmp_path)
         assert done.returncode == 2 and message in done.stderr and "unit='" not in done.stderr
 
 
