@@ -110,6 +110,11 @@ def test_markers_in_one_line_or_never_seen_together_are_refused():
         rigid_body(moved(shape=line), NAMES[:3])
     with pytest.raises(InvalidArgument, match=r"one is 1e\+308 m from the origin, expected at most 1e\+06 m"):
         rigid_body(moved(shape=1e308 * np.eye(4)[:, :3]), NAMES)
+    points = moved(shape=SHAPE[:3]).position.copy()
+    points[1::2] = 100.0 * np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
+    loose = Markers(NAMES[:3], TIMES, points)
+    with pytest.raises(InvalidArgument, match="a, b, c do not keep their distances"):
+        rigid_body(loose, NAMES[:3])
     apart = hidden(hidden(moved(), slice(0, 30), "a"), slice(30, 60), "b")
     with pytest.raises(InvalidArgument, match=r"no frame shows all of them. Missing: a 50 %, b 50 %"):
         rigid_body(apart, NAMES)

@@ -186,6 +186,11 @@ def _shape(chosen: Markers) -> Array:
     for _ in range(_ROUNDS):
         rotation, origin, _ = fit_poses(shape, frames)
         shape = np.einsum("tji,tmj->mi", rotation, frames - origin[:, None]) / len(frames)
+        if min(_flatness(shape), _flatness(shape[:3])) < _LEAST_HEIGHT:
+            raise InvalidArgument(
+                f"markers: {', '.join(chosen.names)} do not keep their distances: in the mean of all frames they "
+                "lie in one line. Choose markers that sit on one rigid body."
+            )
     return _in_own_axes(shape)
 
 
