@@ -117,7 +117,8 @@ def plan(
         raise InvalidArgument(f"duration: {wanted}, expected a positive number of seconds.")
     samples = max(_SAMPLES, 10 * model.options.basis_count)
     motion = model.rollout(goal, wanted, wanted / samples)
-    require_within_reach(motion.pose[-1][:3, 3], arm, "goal: the end of the motion")
+    end = np.asarray(model.goal if goal is None else goal, dtype=np.float64)
+    require_within_reach(end[:3, 3], arm, "goal: the end of the motion")
     joints = _joints(arm, motion, start, simulator)
     factor = _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm))
     slowdown = max(1.0, factor) if slow_down and np.isfinite(factor) else 1.0

@@ -2,6 +2,7 @@
 #include <dmp/error.hpp>
 
 #include "motions.hpp"
+#include "run_values.hpp"
 
 using namespace dmp;
 using namespace motions;
@@ -437,24 +438,8 @@ TEST_CASE("a spring far stiffer than its damping follows its closed form at any 
 }
 
 TEST_CASE("runs are values: assigned and moved they go on as the original would") {
-  const Dmp dmp = Dmp::fit(reach(100, 1.0));
-  Run run(dmp), other(Dmp::fit(helix(100, 3.0, .1, .2, 2)));
-  for (int i = 0; i < 300; ++i) run.step(1e-3);
-  const auto next_of = [](Run one) {
-    one.step(1e-2);
-    return one.position();
-  };
-  const Eigen::VectorXd next = next_of(run);
-  other = run;
-  CHECK(next_of(other) == next);
-  const Run& same = other;
-  other = same;
-  CHECK(next_of(other) == next);
-  Run moved(std::move(other));
-  CHECK(next_of(moved) == next);
-  run.reset();
-  run = std::move(moved);
-  CHECK(next_of(run) == next);
+  run_values::check<Run>(Dmp::fit(reach(100, 1.0)), Dmp::fit(helix(100, 3.0, .1, .2, 2)),
+                         [](const Run& run) { return run.position(); });
 }
 
 TEST_CASE("what ridge regression can not solve is refused with what to do") {

@@ -3,6 +3,7 @@
 #include <dmp/pose_dmp.hpp>
 
 #include "motions.hpp"
+#include "run_values.hpp"
 
 using namespace dmp;
 using namespace motions;
@@ -107,23 +108,8 @@ TEST_CASE("a pose that can not be given out whole is not given out in part") {
 }
 
 TEST_CASE("runs of poses are values") {
-  const PoseDmp dmp = PoseDmp::fit(pose(300, 2.0));
-  PoseRun run(dmp), other(PoseDmp::fit(pose(100, 1.0)));
-  for (int i = 0; i < 500; ++i) run.step(1e-3);
-  const auto next_of = [](PoseRun one) {
-    one.step(1e-2);
-    return one.pose();
-  };
-  const Matrix4d next = next_of(run);
-  other = run;
-  CHECK(next_of(other) == next);
-  const PoseRun& same = other;
-  other = same;
-  PoseRun moved(std::move(other));
-  CHECK(next_of(moved) == next);
-  run.reset();
-  run = std::move(moved);
-  CHECK(next_of(run) == next);
+  run_values::check<PoseRun>(PoseDmp::fit(pose(300, 2.0)), PoseDmp::fit(pose(100, 1.0)),
+                             [](const PoseRun& run) { return run.pose(); });
 }
 
 TEST_CASE("no poses teach nothing") {

@@ -42,8 +42,14 @@ def test_several_recordings_of_one_motion_make_one_model_between_them(tmp_path):
 def test_a_fitted_model_is_planned_for_the_arm_it_was_placed_for(tmp_path):
     write_hand(tmp_path / "hand.npz")
     stated = ("hand.npz", "--quat-order", "xyzw", "--arm", "panda", "--out", "reach.json")
-    assert run("fit", *stated, cwd=tmp_path).returncode == 0
+    fitted = run("fit", *stated, cwd=tmp_path)
+    assert fitted.returncode == 0
     model = dmpcpp.load(tmp_path / "reach.json")
+    start, end = (",".join(f"{x:.3f}" for x in pose[:3, 3]) for pose in (model.start, model.goal))
+    assert f"from {start} to {end} m" in fitted.stdout
+    far = run("plan", "reach.json", "--goal", "5,0,0.3", "--out", "far", cwd=tmp_path)
+    assert far.returncode == 2 and "goal" in far.stderr and "0.986 m long stretched out" in far.stderr
+    assert not (tmp_path / "far").exists()
     goal = model.goal[:3, 3] + [0.02, -0.02, 0.02]
     text = ",".join(map(str, goal))
     done = run("plan", "reach.json", "--goal", text, "--duration", "3", "--out", "plan", "--json", cwd=tmp_path)

@@ -5,6 +5,7 @@ import pickle
 import dmpcpp
 import numpy as np
 import pytest
+from dmpcpp.cli import group
 from dmpcpp.errors import FileError, IkError, InvalidArgument, MissingDependency, NotStated
 
 LATIN = """<?xml version="1.0" encoding="ISO-8859-1"?>
@@ -61,3 +62,10 @@ def test_a_urdf_in_another_encoding_is_read_named_and_sent(tmp_path):
     assert again.urdf == arm.urdf
     with pytest.raises(InvalidArgument, match=r"base"):
         dmpcpp.Arm.from_urdf_file(path, base="elsewhere")
+
+
+def test_an_error_of_the_system_is_said_with_its_file_and_without_its_number(tmp_path):
+    with pytest.raises(OSError) as missing:
+        (tmp_path / "none").read_text()
+    assert group._said(missing.value) == f"{tmp_path}/none: No such file or directory."
+    assert group._said(FileError("a.json: can not be read.")) == "a.json: can not be read."

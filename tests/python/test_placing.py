@@ -68,6 +68,7 @@ def test_a_shoulder_is_put_where_it_shall_be_and_the_tool_turned():
         (["--anchor-start", "a,b,c"], "--anchor-start: 'a,b,c', expected 3 or 6"),
         (["--anchor-start", "1,2,3", "--anchor-goal", "1,2,3"], "--anchor-start and --anchor-goal: expected one"),
         (["--anchor-start", "1,2,3", "--no-place"], "--anchor-start: not together with --no-place"),
+        (["--scale", "0.5", "--no-place"], "--scale: not together with --no-place"),
         (["--anchor-shoulder", "1,2,3"], "--anchor-shoulder and --shoulder: expected both"),
         (["--anchor-start", "1,2,3", "--shoulder", "1,2,3"], "--anchor-shoulder and --shoulder: expected both"),
         (

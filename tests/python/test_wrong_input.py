@@ -46,6 +46,13 @@ WRONG = {
     "a model that is not there": (("plan", "none.json"), "none.json", "", ""),
     "a model of positions": (("plan", "positions.json", "--simulator", "none"), "model", "Dmp", "PoseDmp"),
     "an engine unheard of": (("plan", "model.json", "--simulator", "ode"), "--simulator", "ode", "'bullet'"),
+    "a goal beyond the arm": ((*PLAN, "--goal", "9,0,0"), "goal", "(9, 0, 0)", "long stretched out"),
+    "results where there can be none": (
+        (*PLAN, "--out", "/proc/dmpcpp"),
+        "--out",
+        "/proc/dmpcpp",
+        "can not be written",
+    ),
     "results into a file": ((*PLAN, "--out", "hand.npz"), "--out", "hand.npz", "file"),
     "a config that is not there": (("fit", "--config", "no.toml"), "--config", "no.toml", "can not be read"),
     "a config that is none": (("fit", "--config", "text.bvh"), "--config", "text.bvh", "not TOML"),

@@ -111,21 +111,28 @@ class Guard {
     using Event = Json::parse_event_t;
     if (depth > kDeepest)
       throw InvalidArgument("model: nested deeper than " + std::to_string(kDeepest) + " levels.");
-    if ((event == Event::value && ++values_ > kMostNumbers) ||
-        (event == Event::array_start && ++lists_ > kMostNumbers))
-      throw InvalidArgument("model: more than 10^6 values or lists.");
-    if (event == Event::object_start && ++objects_ > kMostObjects)
-      throw InvalidArgument("model: more than " + std::to_string(kMostObjects) + " objects.");
-    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::value) count(values_, kMostNumbers, "values");
+    if (event == Event::array_start) count(lists_, kMostNumbers, "lists");
+    if (event == Event::object_start) {
+      count(objects_, kMostObjects, "objects");
+      keys_.emplace_back();
+    }
     if (event == Event::object_end) keys_.pop_back();
-    if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)
-      throw InvalidArgument("model: the key '" + parsed.get<std::string>() + "' stands twice.");
-    if (event == Event::key && keys_.back().size() > kMostKeys)
-      throw InvalidArgument("model: an object of more than " + std::to_string(kMostKeys) + " keys.");
+    if (event == Event::key) take_key(parsed.get<std::string>());
     return true;
   }
 
  private:
+  static void count(std::size_t& so_far, std::size_t most, const char* what) {
+    if (++so_far > most) throw InvalidArgument("model: more than " + std::to_string(most) + " " + what + ".");
+  }
+
+  void take_key(const std::string& key) {
+    if (!keys_.back().insert(key).second) throw InvalidArgument("model: the key '" + key + "' stands twice.");
+    if (keys_.back().size() > kMostKeys)
+      throw InvalidArgument("model: an object of more than " + std::to_string(kMostKeys) + " keys.");
+  }
+
   std::size_t values_ = 0;
   std::size_t lists_ = 0;
   std::size_t objects_ = 0;

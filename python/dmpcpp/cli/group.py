@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import threading
 from collections.abc import Iterator
@@ -83,5 +82,9 @@ def refuse_file(out: Path) -> None:
     nearest = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
     if not nearest.is_dir():
         raise InvalidArgument(f"--out: '{nearest}' is a file, expected a folder.")
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise InvalidArgument(f"--out: '{out}' can not be written: no permission in '{nearest}'.")
+    import tempfile  # not for --help
+
+    try:
+        tempfile.TemporaryFile(dir=nearest).close()  # not all that permits it can do it: /proc
+    except OSError as error:
+        raise InvalidArgument(f"--out: '{out}' can not be written: {error.strerror} in '{nearest}'.") from None
