@@ -25,12 +25,12 @@ LEAST = 0.8
 
 # Source under cpp/src: the tests that should notice a fault in it, the nearest first.
 TESTS = {
-    "so3": ["so3", "refusals", "orientation_dmp", "so3_properties"],
-    "basis": ["basis", "forcing", "refusals", "dmp", "dmp_properties"],
-    "forcing": ["forcing", "refusals", "dmp", "fit_report", "dmp_properties"],
-    "detail/forcing_fit": ["forcing", "refusals", "dmp", "batch", "fit_report"],
-    "detail/normal_equations": ["forcing", "dmp", "fit_report", "batch"],
-    "dmp": ["dmp", "refusals", "run_refusals", "batch", "dmp_properties"],
+    "geometry/so3": ["so3", "refusals", "orientation_dmp", "so3_properties"],
+    "primitive/basis": ["basis", "forcing", "refusals", "dmp", "dmp_properties"],
+    "primitive/forcing": ["forcing", "refusals", "dmp", "fit_report", "dmp_properties"],
+    "primitive/forcing_fit": ["forcing", "refusals", "dmp", "batch", "fit_report"],
+    "primitive/normal_equations": ["forcing", "dmp", "fit_report", "batch"],
+    "primitive/dmp": ["dmp", "refusals", "run_refusals", "batch", "dmp_properties"],
 }
 
 SWAPS = {

@@ -12,7 +12,7 @@ void bind_dmp(pybind11::module_& m);
 void bind_orientation_dmp(pybind11::module_& m);
 void bind_pose_dmp(pybind11::module_& m);
 void bind_batch(pybind11::module_& m);
-void bind_align(pybind11::module_& m);
+void bind_dtw(pybind11::module_& m);
 void bind_learning(pybind11::module_& m);
 void bind_file(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);

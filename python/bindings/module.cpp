@@ -43,7 +43,7 @@ PYBIND11_MODULE(_core, m) {
   dmp::python::bind_orientation_dmp(m);
   dmp::python::bind_pose_dmp(m);
   dmp::python::bind_batch(m);
-  dmp::python::bind_align(m);
+  dmp::python::bind_dtw(m);
   dmp::python::bind_learning(m);
   dmp::python::bind_file(m);
   dmp::python::bind_kinematics(m);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "detail/exponential.hpp"
+#include "geometry/exponential.hpp"
 
 namespace {
 

@@ -39,7 +39,8 @@ def test_every_command_is_described():
 def test_every_public_header_stands_in_the_reference():
     text = (DOCS / "cpp-api.md").read_text()
     for header in (DOCS.parent / "cpp" / "include" / "dmp").glob("*.hpp"):
-        assert f"include/dmp/{header.name}" in text
+        old_name = "#pragma message" in header.read_text()
+        assert old_name or f"include/dmp/{header.name}" in text
 
 
 def test_every_option_that_the_guide_types_exists():

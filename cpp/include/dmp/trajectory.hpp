@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dmp/alignment.hpp>
+#include <dmp/eigen_abi.hpp>
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,3 +1,0 @@
-#include <dmp/alignment.hpp>
-
-extern "C" const char DMP_ALIGNMENT_SYMBOL = 0;

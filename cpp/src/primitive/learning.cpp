@@ -1,0 +1,280 @@
+#include "primitive/learning.hpp"
+
+#include <dmp/error.hpp>
+#include <dmp/so3.hpp>
+#include <dmp/spline.hpp>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "primitive/forcing_scale.hpp"
+#include "base/text.hpp"
+
+namespace dmp::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+void require_positive(double value, const char* name) {
+  if (!(std::isfinite(value) && value > 0.0))
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
+                          ", expected a positive number.");
+}
+
+void require_not_negative(double value, const char* name) {
+  if (!(std::isfinite(value) && value >= 0.0))
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
+                          ", expected 0 or a positive number.");
+}
+
+/// What bounds the internal steps of a run, and so its cost.
+void require_at_most(double value, double most, const char* name) {
+  if (value > most)
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected at most " +
+                          number(most) + ".");
+}
+
+template <class Enum>
+void require_enumerator(Enum value, Enum last, const char* name) {
+  if (static_cast<int>(value) < 0 || value > last)
+    throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(static_cast<int>(value)) +
+                          " is none of its enumerators.");
+}
+
+void require_enumerators(const DmpOptions& o) {
+  require_enumerator(o.kernels, Kernels::source, "kernels");
+  require_enumerator(o.regression, Regression::ridge, "regression");
+  require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
+  require_enumerator(o.orientation_form, OrientationForm::log_linear, "orientation_form");
+  require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
+  require_enumerator(o.derivatives, Derivatives::gradient, "derivatives");
+  require_enumerator(o.start, Start::rest, "start");
+  require_enumerator(o.integrator, Integrator::semi_implicit_euler, "integrator");
+}
+
+VectorXd range(const RowMatrix& values) { return values.colwise().maxCoeff() - values.colwise().minCoeff(); }
+
+/// Second-order differences: central inside, one-sided at the ends; any grid.
+RowMatrix gradient(const VectorXd& t, const RowMatrix& y) {
+  const Index n = t.size();
+  RowMatrix rate(n, y.cols());
+  rate.row(0) = (y.row(1) - y.row(0)) / (t[1] - t[0]);
+  rate.row(n - 1) = (y.row(n - 1) - y.row(n - 2)) / (t[n - 1] - t[n - 2]);
+  for (Index k = 1; k + 1 < n; ++k) {
+    const double before = t[k] - t[k - 1];
+    const double after = t[k + 1] - t[k];
+    rate.row(k) = (before / after * (y.row(k + 1) - y.row(k)) + after / before * (y.row(k) - y.row(k - 1))) /
+                  (before + after);
+  }
+  return rate;
+}
+
+Trajectory looked_at(const Demonstration& demonstration, const DmpOptions& options) {
+  if (options.derivatives != Derivatives::gradient)
+    return demonstration.at(fit_times(demonstration.time(), options));
+  const VectorXd& time = demonstration.time();
+  const RowMatrix velocity = gradient(time, demonstration.position());
+  return {time, demonstration.position(), velocity, gradient(time, velocity)};
+}
+
+RowMatrix difference_velocity(const VectorXd& t, const Rotations& r) {
+  const Index n = t.size();
+  RowMatrix omega(n, 3);
+  for (Index k = 0; k < n; ++k) {
+    const Index before = std::max<Index>(k - 1, 0);
+    const Index after = std::min<Index>(k + 1, n - 1);
+    omega.row(k) =
+        so3::log(Eigen::Matrix3d(r[after] * r[before].transpose())).transpose() / (t[after] - t[before]);
+  }
+  return omega;
+}
+
+OrientationTrajectory looked_at(const OrientationDemonstration& demonstration, const DmpOptions& options) {
+  if (options.derivatives != Derivatives::gradient)
+    return demonstration.at(fit_times(demonstration.time(), options));
+  const VectorXd& time = demonstration.time();
+  const RowMatrix omega = difference_velocity(time, demonstration.rotation());
+  return {time, demonstration.rotation(), omega, gradient(time, omega)};
+}
+
+/// e_k = Log(Rg R_k^T), the branch followed backward from e = 0 at the end.
+RowMatrix errors_to_goal(const Rotations& rotations, LogBranch branch) {
+  const Index n = static_cast<Index>(rotations.size());
+  RowMatrix errors(n, 3);
+  const Eigen::Quaterniond goal(rotations.back());
+  Vector3d later = Vector3d::Zero();
+  for (Index k = n - 1; k >= 0; --k) {
+    const Eigen::Quaterniond turn = goal * Eigen::Quaterniond(rotations[k]).conjugate();
+    later = branch == LogBranch::lifted ? so3::lifted_log(turn, later) : so3::log(turn);
+    errors.row(k) = later.transpose();
+  }
+  return errors;
+}
+
+/// tau^2 acceleration - alpha (beta error - tau velocity); `error` may be an expression.
+template <class Error>
+RowMatrix forcing_of(double tau, double alpha, double beta, RowMatrix acceleration, const Error& error,
+                     const RowMatrix& velocity) {
+  acceleration = tau * tau * acceleration - alpha * (beta * error - tau * velocity);
+  return acceleration;
+}
+
+RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatrix& errors, double tau,
+                              const DmpOptions& options) {
+  const double alpha = *options.orientation_alpha;
+  const double beta = *options.orientation_beta;
+  if (options.orientation_form != OrientationForm::log_linear)
+    return forcing_of(tau, alpha, beta, motion.angular_acceleration, errors, motion.angular_velocity);
+  const Spline::Samples p = Spline(motion.time, -errors).sample(motion.time);
+  return forcing_of(tau, alpha, beta, p.second, errors, p.first);
+}
+
+/// (g - y0) scales only an axis that ends elsewhere than it starts, measured by the range it covers.
+void require_displacement(const VectorXd& displacement, const VectorXd& amplitude) {
+  for (Index d = 0; d < displacement.size(); ++d)
+    if (amplitude[d] > 0.0 && std::abs(displacement[d]) < 1e-9 * amplitude[d])
+      throw InvalidArgument("scaling: axis " + std::to_string(d) + " of the demonstration ends " +
+                            number(displacement[d]) + " from its start and covers " + number(amplitude[d]) +
+                            ", so (goal - start) can not scale its forcing term. Use Scaling::none or "
+                            "Scaling::per_axis_relative.");
+}
+
+/// Two samples tell where from and where to, but no way and no velocity.
+template <class Velocity>
+void keep_spring_only(Velocity& start, ForcingTarget& target) {
+  start.setZero();
+  target.value.setZero();
+}
+
+}  // namespace
+
+DmpOptions resolved(const DmpOptions& options) {
+  DmpOptions result = options;
+  require_enumerators(options);
+  if (options.basis_count < 1 || options.basis_count > 100000)
+    throw InvalidArgument("options.basis_count: " + std::to_string(options.basis_count) +
+                          ", expected 1 to 100000 kernels.");
+  if (options.passes < 1 || options.passes > 10000)
+    throw InvalidArgument("options.passes: " + std::to_string(options.passes) + ", expected 1 to 10000.");
+  result.beta = options.beta.value_or(options.alpha / 4.0);
+  result.orientation_alpha = options.orientation_alpha.value_or(options.alpha);
+  result.orientation_beta = options.orientation_beta.value_or(
+      options.orientation_alpha ? *options.orientation_alpha / 4.0 : *result.beta);
+  result.overlap = options.overlap.value_or(options.regression == Regression::lwr ? std::log(2.0) : 0.2);
+  require_at_most(result.alpha, 1e4, "alpha");
+  require_at_most(*result.orientation_alpha, 1e4, "orientation_alpha");
+  require_at_most(result.goal_filter, 1e4, "goal_filter");
+  require_at_most(result.alpha_x, 50.0, "alpha_x");
+  require_positive(result.alpha, "alpha");
+  require_positive(*result.beta, "beta");
+  require_positive(*result.orientation_alpha, "orientation_alpha");
+  require_positive(*result.orientation_beta, "orientation_beta");
+  require_positive(result.alpha_x, "alpha_x");
+  require_positive(*result.overlap, "overlap");
+  require_at_most(*result.overlap, 300.0, "overlap");
+  require_not_negative(result.ridge, "ridge");
+  require_not_negative(result.goal_filter, "goal_filter");
+  require_not_negative(result.tempo_filter, "tempo_filter");
+  require_not_negative(result.phase_stop, "phase_stop");
+  return result;
+}
+
+double largest_log(const OrientationDemonstration& demonstration, LogBranch branch) {
+  return errors_to_goal(demonstration.rotation(), branch).rowwise().norm().maxCoeff();
+}
+
+OrientationForm form_for(const DmpOptions& options, double largest_log) {
+  if (options.orientation_form != OrientationForm::automatic) return options.orientation_form;
+  // Beyond pi the spring of the UDE form pushes away across the axis; the log-linear one is stable
+  // everywhere.
+  constexpr double kFar = 3.0;
+  const bool far = options.log_branch == LogBranch::lifted && largest_log > kFar;
+  return far ? OrientationForm::log_linear : OrientationForm::ude;
+}
+
+GaussianBasis basis_of(const DmpOptions& options) {
+  if (options.kernels == Kernels::source) return GaussianBasis::source(options.basis_count, options.alpha_x);
+  return GaussianBasis::equal_in_time(options.basis_count, options.alpha_x, *options.overlap);
+}
+
+VectorXd fit_times(const VectorXd& time, const DmpOptions& options) {
+  const Index wanted = 10 * static_cast<Index>(options.basis_count) + 1;
+  if (options.derivatives == Derivatives::gradient || time.size() >= wanted - 1) return time;
+  return VectorXd::LinSpaced(wanted, 0.0, time[time.size() - 1]);
+}
+
+PositionLesson lesson_of(const Demonstration& given, const DmpOptions& options) {
+  const std::optional<Demonstration> smoothed =
+      options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
+  const Demonstration& demonstration = smoothed ? *smoothed : given;
+  Trajectory motion = looked_at(demonstration, options);
+  const double tau = demonstration.duration();
+  PositionLesson lesson;
+  lesson.start = demonstration.position().row(0);
+  lesson.goal = demonstration.position().row(demonstration.size() - 1);
+  lesson.start_z = tau * motion.velocity.row(0);
+  if (options.start == Start::rest) lesson.start_z.setZero();
+  lesson.amplitude = range(demonstration.position());
+  const auto to_goal = (-motion.position).rowwise() + lesson.goal.transpose();
+  lesson.target = {
+      motion.time / tau,
+      forcing_of(tau, options.alpha, *options.beta, std::move(motion.acceleration), to_goal, motion.velocity),
+      VectorXd::Ones(lesson.start.size())};
+  if (demonstration.size() < 3) keep_spring_only(lesson.start_z, lesson.target);
+  return lesson;
+}
+
+OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOptions& options) {
+  const std::optional<OrientationDemonstration> smoothed =
+      options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
+  const OrientationDemonstration& demonstration = smoothed ? *smoothed : given;
+  const OrientationTrajectory motion = looked_at(demonstration, options);
+  const double tau = demonstration.duration();
+  const RowMatrix errors = errors_to_goal(motion.rotation, options.log_branch);
+  OrientationLesson lesson;
+  lesson.start = demonstration.rotation().front();
+  lesson.goal = demonstration.rotation().back();
+  lesson.start_eta = tau * motion.angular_velocity.row(0);
+  if (options.start == Start::rest) lesson.start_eta.setZero();
+  lesson.start_error = errors.row(0);
+  lesson.amplitude = range(errors);
+  lesson.target = {motion.time / tau, orientation_forcing(motion, errors, tau, options), Vector3d::Ones()};
+  if (demonstration.size() < 3) keep_spring_only(lesson.start_eta, lesson.target);
+  return lesson;
+}
+
+void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacement,
+                   const VectorXd& reference, const VectorXd& amplitude, const DmpOptions& options) {
+  if (options.scaling == Scaling::none) return;
+  const Index axes = displacement.size();
+  if (options.scaling == Scaling::per_axis) require_displacement(displacement, amplitude);
+  if (options.scaling != Scaling::rotation_dilation) {
+    ForcingScale scale(options.scaling, reference, amplitude);
+    scale.set(displacement);
+    scale.apply(target.scale.segment(first, axes).data());
+    return;
+  }
+  // target = c R f: turned back by R^T (the rotation of the inverse way), scaled by c on every axis.
+  ForcingScale back(Scaling::rotation_dilation, displacement, amplitude);
+  back.set(reference);
+  if (displacement.norm() <= 1e-3 * amplitude.norm() || reference.norm() <= 1e-3 * amplitude.norm()) return;
+  const double dilation = displacement.norm() / reference.norm();
+  for (Index k = 0; k < target.value.rows(); ++k) back.apply(target.value.row(k).data() + first);
+  target.value.middleCols(first, axes) *= dilation;  // back.apply divided by it
+  target.scale.segment(first, axes).setConstant(dilation);
+}
+
+Eigen::Matrix3d mean_rotation(const Rotations& rotations) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3d& rotation : rotations) sum += rotation;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+}  // namespace dmp::detail

@@ -1,0 +1,126 @@
+#include <dmp/arm.hpp>
+#include <dmp/error.hpp>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <filesystem>
+#include <kdl/chainjnttojacsolver.hpp>
+
+#include "robot/checks.hpp"
+#include "robot/kdl_forward.hpp"
+#include "base/text_file.hpp"
+#include "robot/urdf_chain.hpp"
+
+namespace dmp {
+namespace {
+
+Eigen::Matrix4d matrix_of(const detail::Frame& frame) {
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topLeftCorner<3, 3>() = frame.rotation;
+  pose.topRightCorner<3, 1>() = frame.position;
+  return pose;
+}
+
+void replace(Eigen::VectorXd& limit, const std::optional<Eigen::VectorXd>& other, const std::string& name) {
+  if (!other) return;
+  if (other->size() != limit.size())
+    throw InvalidArgument(name + ": " + std::to_string(other->size()) + " values, expected " +
+                          std::to_string(limit.size()) + ", one for each joint.");
+  limit = *other;
+}
+
+void check_positive(const Eigen::VectorXd& limit, const std::string& name) {
+  for (Eigen::Index i = 0; i < limit.size(); ++i)
+    if (!(limit[i] > 0.0))
+      throw InvalidArgument(name + "[" + std::to_string(i) + "]: " + std::to_string(limit[i]) +
+                            ", expected > 0.");
+}
+
+}  // namespace
+
+Arm::Arm(std::shared_ptr<const detail::ChainModel> model) : model_(std::move(model)) {}
+
+Arm Arm::from_urdf(const std::string& text, const std::string& base, const std::string& tip,
+                   const std::string& folder) {
+  auto model = std::make_shared<detail::ChainModel>(detail::read_urdf(text, base, tip));
+  model->folder = folder;
+  return Arm(std::move(model));
+}
+
+Arm Arm::from_urdf_file(const std::string& path, const std::string& base, const std::string& tip) {
+  const std::string text = detail::read_text(path, "a URDF");
+  try {
+    return from_urdf(text, base, tip, std::filesystem::absolute(path).parent_path().string());
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument("'" + path + "': " + error.what());
+  }
+}
+
+Arm Arm::with_limits(const LimitOverrides& limits) const {
+  auto model = std::make_shared<detail::ChainModel>(*model_);
+  replace(model->lower, limits.lower, "lower");
+  replace(model->upper, limits.upper, "upper");
+  replace(model->velocity_limit, limits.velocity, "velocity");
+  replace(model->effort_limit, limits.effort, "effort");
+  for (Eigen::Index i = 0; i < joint_count(); ++i)
+    if (!(model->lower[i] < model->upper[i]))
+      throw InvalidArgument("lower[" + std::to_string(i) + "]: " + std::to_string(model->lower[i]) +
+                            ", expected less than upper = " + std::to_string(model->upper[i]) + ".");
+  check_positive(model->velocity_limit, "velocity");
+  check_positive(model->effort_limit, "effort");
+  return Arm(std::move(model));
+}
+
+const std::string& Arm::name() const { return model_->name; }
+const std::string& Arm::base() const { return model_->base; }
+const std::string& Arm::tip() const { return model_->tip; }
+Eigen::Index Arm::joint_count() const { return model_->lower.size(); }
+const std::vector<std::string>& Arm::joint_names() const { return model_->joint_names; }
+const Eigen::VectorXd& Arm::lower() const { return model_->lower; }
+const Eigen::VectorXd& Arm::upper() const { return model_->upper; }
+const Eigen::VectorXd& Arm::velocity_limit() const { return model_->velocity_limit; }
+const Eigen::VectorXd& Arm::effort_limit() const { return model_->effort_limit; }
+const std::vector<std::string>& Arm::warnings() const { return model_->warnings; }
+const std::string& Arm::urdf() const { return model_->urdf; }
+const std::string& Arm::folder() const { return model_->folder; }
+
+// The chain is shared between threads, the KDL solvers are not: each call has its own (see ChainModel).
+Eigen::Matrix4d Arm::forward_kinematics(const Eigen::VectorXd& q) const {
+  detail::check_joints(q, joint_count(), "q");
+  return matrix_of(detail::KdlForward(*model_)(q));
+}
+
+Poses Arm::forward_kinematics(const RowMatrix& q) const {
+  detail::KdlForward forward(*model_);
+  Poses poses;
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    detail::check_joints(q.row(k), joint_count(), "q[" + std::to_string(k) + "]");
+    poses.push_back(matrix_of(forward(q.row(k).transpose())));
+  }
+  return poses;
+}
+
+Eigen::MatrixXd Arm::jacobian(const Eigen::VectorXd& q) const {
+  detail::check_joints(q, joint_count(), "q");
+  const auto count = static_cast<unsigned>(model_->couplings.size());
+  KDL::ChainJntToJacSolver solver(model_->chain);
+  KDL::JntArray joints(count);
+  KDL::Jacobian all(count);
+  detail::expand(*model_, q, joints);
+  solver.JntToJac(joints, all);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(6, joint_count());
+  for (std::size_t i = 0; i < model_->couplings.size(); ++i) {
+    const detail::Coupling& coupling = model_->couplings[i];
+    jacobian.col(coupling.joint) += coupling.multiplier * all.data.col(static_cast<Eigen::Index>(i));
+  }
+  return jacobian;
+}
+
+double Arm::manipulability(const Eigen::VectorXd& q) const {
+  const Eigen::MatrixXd j = jacobian(q);
+  // Fewer than six joints span a volume of their own number of dimensions.
+  const double square = j.cols() < 6 ? (j.transpose() * j).determinant() : (j * j.transpose()).determinant();
+  return std::sqrt(std::max(square, 0.0));
+}
+
+}  // namespace dmp
