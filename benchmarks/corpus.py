@@ -19,7 +19,7 @@ from pathlib import Path
 import click
 import numpy as np
 from dmpcpp import batch, recordings
-from dmpcpp.atomic import write_text
+from dmpcpp._atomic import write_text
 
 TEMPI = {"panda": (0.5, 1.0, 2.0), "iiwa": (0.5, 1.0, 2.0), "xarm6": (1.0,)}
 """Durations over the recorded ones, for each arm."""

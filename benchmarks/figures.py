@@ -23,7 +23,7 @@ from dmpcpp import (
     reproduction,
 )
 from dmpcpp.metrics import rotation_angles
-from dmpcpp.reproduction.repetition import with_angle_noise, with_position_noise
+from dmpcpp.trials.reproduction._repetition import with_angle_noise, with_position_noise
 from numpy.typing import NDArray
 
 from benchmarks import demonstrations, peers

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from dmpcpp.simulation.quiet import quiet
+from dmpcpp.simulation._quiet import quiet
 
 __all__ = ["Diagnosis", "Part", "examine"]
 
@@ -129,6 +129,6 @@ def _core() -> str:
 
 
 def _arms() -> str:
-    from dmpcpp import arms
+    from dmpcpp.robot import arms
 
     return ", ".join(f"{name} ({arms.find(name).joint_count} joints)" for name in arms.KNOWN)

@@ -22,12 +22,12 @@ from scipy.spatial.transform import Rotation
 from dmpcpp import motion
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.motion import LONGEST_GAP
-from dmpcpp.recordings.markers import Markers
-from dmpcpp.recordings.reader import Reader
-from dmpcpp.recordings.recording import Array, Recording
-from dmpcpp.recordings.registry import prepared
-from dmpcpp.recordings.rigid_body import of_markers
-from dmpcpp.recordings.stated import Stated
+from dmpcpp.recordings._markers import Markers
+from dmpcpp.recordings._reader import Reader
+from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings._registry import prepared
+from dmpcpp.recordings._rigid_body import of_markers
+from dmpcpp.recordings._statement import Stated
 
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 

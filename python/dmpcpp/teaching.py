@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dmpcpp import motion, retarget, simulation
+from dmpcpp import motion, simulation
 from dmpcpp._core import Arm, Derivatives, DmpOptions, FitReport, PoseDemonstration, PoseDmp, assess
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.imitation import clear_of_itself
 from dmpcpp.learning import learn, reproduction, reproduction_checks
 from dmpcpp.motion import Noise
+from dmpcpp.planning import place
 from dmpcpp.recordings import Recording
 from dmpcpp.simulation import Check, Checked
 
@@ -132,5 +133,5 @@ def placed(
     """
     whole = [motion.plausible(motion.continuous(recording)) for recording in recordings]
     clear = clear_of_itself(arm, simulation.Bullet)
-    placement = retarget.place(whole[0], arm, seed, scale=scale, accept=clear)
+    placement = place(whole[0], arm, seed, scale=scale, accept=clear)
     return [placement.apply_to(recording) for recording in whole]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 from dmpcpp import plot
-from dmpcpp.atomic import replacing
+from dmpcpp._atomic import replacing
 
 from scripts.gallery.pictures import PICTURES
 

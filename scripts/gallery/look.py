@@ -8,7 +8,7 @@ from typing import Any
 import dmpcpp
 import numpy as np
 from dmpcpp import plot
-from dmpcpp.plot.page import INK, plain
+from dmpcpp.show.plot._page import INK, plain
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]

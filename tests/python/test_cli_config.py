@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dmpcpp.cli import config, main
-from dmpcpp.report.record import RunRecord, write_record
+from dmpcpp.cli import _config as config
+from dmpcpp.cli import main
+from dmpcpp.show.report._record import RunRecord, write_record
 
 from tests.python.command import run, write_hand
 

@@ -6,7 +6,7 @@ import struct
 
 import numpy as np
 import pytest
-from dmpcpp.simulation.convex_pieces import convex_pieces
+from dmpcpp.robot._convex_pieces import convex_pieces
 from scipy.spatial import ConvexHull, Delaunay
 
 

@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 from dmpcpp import arms, export, recordings
 from dmpcpp.cli import main
-from dmpcpp.cli.config import save_config
+from dmpcpp.cli._config import save_config
 
 pytest.importorskip("pybullet_data")
 
@@ -86,7 +86,7 @@ def test_every_demo_has_a_folder_of_its_own_and_its_config_says_which(stated, fo
         out.mkdir()
         save_config(out / "config.toml")
 
-    monkeypatch.setattr("dmpcpp.cli.imitation._carry_out", carried_out)
+    monkeypatch.setattr("dmpcpp.cli._imitation._carry_out", carried_out)
     done = CliRunner().invoke(main, ["demo", *stated])
     assert done.exit_code == 0, done.output
     assert [path.name for path in tmp_path.iterdir()] == [folder]

@@ -55,10 +55,11 @@ def test_every_option_that_the_guide_types_exists():
 def test_every_public_module_stands_in_the_reference():
     package = DOCS.parent / "python" / "dmpcpp"
     modules = {path.stem for path in package.iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()}
-    # The command line has its own page.
-    hidden = {"__init__", "__main__", "_core", "cli", "atomic", "processes", "imitation_files"}
+    public = {name for name in modules if not name.startswith("_")}
+    rooms = {"robot", "show", "trials"}  # users import what is in them from dmpcpp
     named = set(re.findall(r"automodule:: dmpcpp\.(\w+)", (DOCS / "python-api.md").read_text()))
-    assert named - {"_core", "so3"} == modules - hidden
+    assert len(named) > 20
+    assert named - {"_core", "so3"} == public - rooms - {"cli"}  # the command line has its own page
 
 
 def test_every_message_of_the_troubleshooting_page_is_one_of_the_programs():

@@ -5,7 +5,7 @@ import pickle
 import dmpcpp
 import numpy as np
 import pytest
-from dmpcpp.cli import group
+from dmpcpp.cli import _group as group
 from dmpcpp.errors import FileError, IkError, InvalidArgument, MissingDependency, NotStated
 
 LATIN = """<?xml version="1.0" encoding="ISO-8859-1"?>

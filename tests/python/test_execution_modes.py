@@ -9,9 +9,10 @@ pytest.importorskip("pybullet", reason="the extra `sim`")
 
 from dmpcpp import Arm, arms, simulation
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.simulation import Disturbance, reference
-from dmpcpp.simulation.robot_description import describe
-from dmpcpp.simulation.sensing import Sensors
+from dmpcpp.robot._description import describe
+from dmpcpp.simulation import Disturbance
+from dmpcpp.simulation import _reference as reference
+from dmpcpp.simulation._sensing import Sensors
 
 from benchmarks.joint_motions import HOME, PENDULUM, reach, swing
 

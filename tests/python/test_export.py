@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from dmpcpp import atomic, export, recordings
+from dmpcpp import _atomic as atomic
+from dmpcpp import export, recordings
 from dmpcpp.errors import FileError, InvalidArgument
 from scipy.spatial.transform import Rotation
 

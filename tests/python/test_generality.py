@@ -12,9 +12,9 @@ import pytest
 from dmpcpp import arms, generality
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.generality import Distribution, Result, Trial, run
-from dmpcpp.generality.motions import drawn_placement
-from dmpcpp.generality.trial import _changed, _learning_cause
 from dmpcpp.metrics import StageErrors
+from dmpcpp.trials.generality._motions import drawn_placement
+from dmpcpp.trials.generality._trial import _changed, _learning_cause
 from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
@@ -119,8 +119,8 @@ def test_a_motion_without_a_place_names_the_cause(monkeypatch):
     def nowhere(*_, **__):
         raise InvalidArgument("recording: no placement found")
 
-    monkeypatch.setattr("dmpcpp.imitation.retarget.place", nowhere)
-    monkeypatch.setattr("dmpcpp.generality.trial._follows", lambda *_: False)
+    monkeypatch.setattr("dmpcpp.imitation._flow.place_motion", nowhere)
+    monkeypatch.setattr("dmpcpp.trials.generality._trial._follows", lambda *_: False)
     result = generality.attempt(Trial("panda", "none", 0, 0))
     assert not result.ok and result.slowdown is None and result.scale is None
     assert result.cause == "placement: recording: no placement found"
@@ -130,8 +130,8 @@ def test_what_is_refused_where_it_was_drawn_does_not_stop_the_series(monkeypatch
     def refused(*_, place=True, **__):
         raise InvalidArgument("no place" if place else "not even here")
 
-    monkeypatch.setattr("dmpcpp.generality.trial.imitation.imitate", refused)
-    monkeypatch.setattr("dmpcpp.generality.trial._follows", lambda *_: True)
+    monkeypatch.setattr("dmpcpp.trials.generality._trial.imitation.imitate", refused)
+    monkeypatch.setattr("dmpcpp.trials.generality._trial._follows", lambda *_: True)
     result = generality.attempt(Trial("panda", "none", 0, 0))
     assert not result.ok and result.cause == "placement: no place"
 
@@ -147,7 +147,7 @@ def made(monkeypatch):
         asked.append(trial)
         return replace(DONE, trial=trial, ok=trial.index != 3, cause="placement: none" * (trial.index == 3))
 
-    monkeypatch.setattr("dmpcpp.generality.series.attempt", answer)
+    monkeypatch.setattr("dmpcpp.trials.generality._series.attempt", answer)
     return asked
 
 

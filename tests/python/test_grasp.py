@@ -11,9 +11,9 @@ import pytest
 from dmpcpp import arms, grasp
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.grasp import Bottle, Planner
-from dmpcpp.grasp.reach import laid, longest_reach, resting
-from dmpcpp.grasp.task import hand_pose
-from dmpcpp.grasp.verdict import GraspTolerances
+from dmpcpp.grasp._reach import laid, longest_reach, resting
+from dmpcpp.grasp._task import hand_pose
+from dmpcpp.grasp._verdict import GraspTolerances
 from dmpcpp.recordings import Recording
 from dmpcpp.simulation import PANDA_HAND, Cylinder, Friction, GraspWorld
 from scipy.spatial.transform import Rotation
@@ -326,7 +326,7 @@ def test_the_command_prints_json_and_draws_the_phases(tmp_path):
 
 def test_a_film_is_an_mp4(tmp_path):
     pytest.importorskip("imageio_ffmpeg")
-    from dmpcpp.grasp.film import _write_mp4
+    from dmpcpp.grasp._film import _write_mp4
 
     colours = (np.full((384, 512, 3), 25 * k, dtype=np.uint8) for k in range(10))
     _write_mp4(tmp_path / "film.mp4", colours)

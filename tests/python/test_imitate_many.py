@@ -6,8 +6,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from dmpcpp import batch
-from dmpcpp.batch import many
 from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.trials.batch import _many as many
 
 from tests.python.command import run, write_hand
 

@@ -133,7 +133,7 @@ def test_no_cycle_to_choose_is_said_so():
 
 def test_the_command_line_prepares_and_writes_the_history(tmp_path):
     pytest.importorskip("pybullet_data")
-    from dmpcpp.cli.imitation import imitate
+    from dmpcpp.cli._imitation import imitate
 
     recording = noisy(2e-3)
     recording = recording.with_("", time=recording.time)

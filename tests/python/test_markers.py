@@ -5,7 +5,7 @@ import pytest
 from dmpcpp import recordings
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings import Markers
-from dmpcpp.recordings.markers import distinct
+from dmpcpp.recordings._markers import distinct
 from scipy.spatial.transform import Rotation
 
 COUNT = 12

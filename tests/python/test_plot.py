@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from dmpcpp import plot
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
-from dmpcpp.plot import execution
+from dmpcpp.show.plot import _execution as execution
 
 pytest.importorskip("matplotlib")
 

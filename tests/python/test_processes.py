@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from dmpcpp.processes import workers
+from dmpcpp.trials._processes import workers
 
 from tests.python.command import write_hand
 

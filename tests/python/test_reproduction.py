@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dmpcpp import DmpOptions, InvalidArgument, reproduction, so3
-from dmpcpp.reproduction import run
-from dmpcpp.reproduction.repetition import Statistics, random_motion, with_angle_noise, with_position_noise
+from dmpcpp.trials.reproduction import _run as run
+from dmpcpp.trials.reproduction._repetition import Statistics, random_motion, with_angle_noise, with_position_noise
 from scipy.spatial.transform import Rotation
 
 PICTURES = {f"rotation-{convention}-{seconds}s.png" for convention in ("source", "zyx") for seconds in (1, 5)}

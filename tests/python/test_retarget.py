@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from dmpcpp import motion, recordings
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._following import to_follow
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement, place
-from dmpcpp.retarget.following import to_follow
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation

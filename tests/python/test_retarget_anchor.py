@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from dmpcpp import Arm, arms, motion, retarget
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.retarget.farthest_reach import farthest_reach
+from dmpcpp.robot._reach import farthest_reach
 from scipy.spatial.transform import Rotation
 
 from tests.python.motions import angle_between, reaches, screw

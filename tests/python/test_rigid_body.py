@@ -5,7 +5,7 @@ import pytest
 from dmpcpp import recordings
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Markers, rigid_body
-from dmpcpp.recordings.rigid_body import fit_poses
+from dmpcpp.recordings._rigid_body import fit_poses
 from scipy.spatial.transform import Rotation
 
 COUNT = 60

@@ -17,8 +17,8 @@ pytest.importorskip("pybullet", reason="the extra `sim`")
 from dmpcpp import Arm, InverseKinematics, arms, duration_factor, simulation, stretched
 from dmpcpp.errors import InvalidArgument, MissingDependency
 from dmpcpp.metrics import position_errors
-from dmpcpp.simulation import reference
-from dmpcpp.simulation.bullet import Bullet
+from dmpcpp.simulation import _reference as reference
+from dmpcpp.simulation._bullet import Bullet
 
 
 @pytest.fixture(scope="module")

@@ -5,9 +5,9 @@ import pytest
 from click.testing import CliRunner
 from dmpcpp import recordings
 from dmpcpp.cli import main
-from dmpcpp.cli.recording_options import in_flags
+from dmpcpp.cli._recording_options import in_flags
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings.column_names import Column, column
+from dmpcpp.recordings._columns import Column, column
 from scipy.spatial.transform import Rotation
 
 TIMES = np.arange(12) / 10

@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 from dmpcpp import Arm
-from dmpcpp.simulation.urdf_changes import add_payload, freeze, scale_masses
+from dmpcpp.robot._urdf_changes import add_payload, freeze, scale_masses
 
 ROBOT = """<robot name="r"><link name="base"/>
   <link name="a"><inertial><mass value="2"/>

@@ -387,7 +387,7 @@ def test_the_command_verifies_and_states_the_lag(files):
 
 
 def test_the_joint_concerned_is_named_in_full_however_narrow_the_terminal():
-    from dmpcpp.cli.tables import checks_table
+    from dmpcpp.cli._tables import checks_table
     from dmpcpp.simulation import Check
     from rich.console import Console
 

@@ -92,7 +92,7 @@ def test_what_is_changed_on_the_page_is_shown_and_the_button_takes_it_back(sessi
     pytest.importorskip("viser")
     pytest.importorskip("yourdfpy")
     from dmpcpp.scene import serving
-    from dmpcpp.view.page import Page
+    from dmpcpp.show.view._page import Page
 
     goal = model.goal.copy()
     goal[:3, 3] += [0.03, 0.03, 0.0]

@@ -4,19 +4,19 @@ report | batch | check-urdf | doctor`.
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
 
-from dmpcpp.cli.batch import batch
-from dmpcpp.cli.checking import check_urdf, doctor
-from dmpcpp.cli.config import configurable
-from dmpcpp.cli.generality import generality
-from dmpcpp.cli.grasp import grasp
-from dmpcpp.cli.group import main
-from dmpcpp.cli.imitation import demo, imitate
-from dmpcpp.cli.inspection import inspect
-from dmpcpp.cli.learning import fit, plan
-from dmpcpp.cli.report import report
-from dmpcpp.cli.reproduction import reproduce
-from dmpcpp.cli.verification import verify
-from dmpcpp.cli.view import view
+from dmpcpp.cli._batch import batch
+from dmpcpp.cli._checking import check_urdf, doctor
+from dmpcpp.cli._config import configurable
+from dmpcpp.cli._generality import generality
+from dmpcpp.cli._grasp import grasp
+from dmpcpp.cli._group import main
+from dmpcpp.cli._imitation import demo, imitate
+from dmpcpp.cli._inspection import inspect
+from dmpcpp.cli._learning import fit, plan
+from dmpcpp.cli._report import report
+from dmpcpp.cli._reproduction import reproduce
+from dmpcpp.cli._verification import verify
+from dmpcpp.cli._view import view
 
 __all__ = ["main"]
 

@@ -10,11 +10,11 @@ All in s, m and rad (m for a sliding joint). Numbers that are not finite are ref
 outside an arm's limits where the arm is given.
 """
 
-from dmpcpp.export.checks import JointSamples, check_limits
-from dmpcpp.export.files import Plan, read_joints, read_plan, write_joints, write_plan, write_tum
-from dmpcpp.export.formats import FORMATS, Format, chosen
-from dmpcpp.export.ros2 import read_ros2_bag, read_ros2_yaml, write_ros2_bag, write_ros2_yaml
-from dmpcpp.export.urscript import read_urscript, write_urscript
+from dmpcpp.export._checks import JointSamples, check_limits
+from dmpcpp.export._files import Plan, read_joints, read_plan, write_joints, write_plan, write_tum
+from dmpcpp.export._formats import FORMATS, Format, chosen
+from dmpcpp.export._ros2 import read_ros2_bag, read_ros2_yaml, write_ros2_bag, write_ros2_yaml
+from dmpcpp.export._urscript import read_urscript, write_urscript
 
 __all__ = [
     "FORMATS",

@@ -9,14 +9,14 @@ The reach is learned once as a `PoseDmp`; for every bottle its goal is moved to 
 where the hand goes on straight along its own axis. Nothing but friction holds the bottle.
 """
 
-from dmpcpp.grasp.attempt import CAVEAT, Grasp, grasp
-from dmpcpp.grasp.execution import GraspLog, carry_out
-from dmpcpp.grasp.film import film
-from dmpcpp.grasp.planning import GraspPlan, Planner
-from dmpcpp.grasp.reach import default_reach, longest_reach
-from dmpcpp.grasp.task import Bottle, random_bottle
-from dmpcpp.grasp.timing import PHASES
-from dmpcpp.grasp.verdict import GraspTolerances, judge
+from dmpcpp.grasp._attempt import CAVEAT, Grasp, grasp
+from dmpcpp.grasp._execution import GraspLog, carry_out
+from dmpcpp.grasp._film import film
+from dmpcpp.grasp._planning import GraspPlan, Planner
+from dmpcpp.grasp._reach import default_reach, longest_reach
+from dmpcpp.grasp._task import Bottle, random_bottle
+from dmpcpp.grasp._timing import PHASES
+from dmpcpp.grasp._verdict import GraspTolerances, judge
 
 __all__ = [
     "CAVEAT",

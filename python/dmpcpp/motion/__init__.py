@@ -10,17 +10,17 @@ Samples that were lost stand as NaN in a Recording; `outliers` makes some more o
 out. Every other step asks for whole recordings.
 """
 
-from dmpcpp.motion.alignment import aligned, medoid
-from dmpcpp.motion.averaging import Spread, mean, spread
-from dmpcpp.motion.frames import relative_to, relative_to_pose
-from dmpcpp.motion.gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, skipped, split
-from dmpcpp.motion.outliers import outliers
-from dmpcpp.motion.plausibility import implausible, plausible
-from dmpcpp.motion.poses import complete, continuous, demonstration, poses, quaternions, turn_angles
-from dmpcpp.motion.preparation import Preparation, prepare
-from dmpcpp.motion.segmentation import cycles, segments, speed
-from dmpcpp.motion.smoothing import Noise, low_pass, noise, smooth, white_noise
-from dmpcpp.motion.timing import crop, refine, resample
+from dmpcpp.motion._alignment import aligned, medoid
+from dmpcpp.motion._averaging import Spread, mean, spread
+from dmpcpp.motion._frames import relative_to, relative_to_pose
+from dmpcpp.motion._gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, skipped, split
+from dmpcpp.motion._outliers import outliers
+from dmpcpp.motion._plausibility import implausible, plausible
+from dmpcpp.motion._poses import complete, continuous, demonstration, poses, quaternions, turn_angles
+from dmpcpp.motion._preparation import Preparation, prepare
+from dmpcpp.motion._segmentation import cycles, segments, speed
+from dmpcpp.motion._smoothing import Noise, low_pass, noise, smooth, white_noise
+from dmpcpp.motion._timing import crop, refine, resample
 
 __all__ = [
     "LONGEST_GAP",

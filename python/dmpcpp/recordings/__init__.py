@@ -19,13 +19,13 @@ from os import PathLike
 from pathlib import Path
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings.clips import clip_names, clip_path
-from dmpcpp.recordings.markers import Markers
-from dmpcpp.recordings.reader import Reader
-from dmpcpp.recordings.recording import Recording
-from dmpcpp.recordings.registry import prepared, reader_of, summaries
-from dmpcpp.recordings.rigid_body import of_markers, rigid_body
-from dmpcpp.recordings.stated import Stated
+from dmpcpp.recordings._formats.clips import clip_names, clip_path
+from dmpcpp.recordings._markers import Markers
+from dmpcpp.recordings._reader import Reader
+from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._registry import prepared, reader_of, summaries
+from dmpcpp.recordings._rigid_body import of_markers, rigid_body
+from dmpcpp.recordings._statement import Stated
 
 __all__ = [
     "Markers",

@@ -4,22 +4,22 @@
 MuJoCo are imported when they are first needed; without them ``execute`` raises ``MissingDependency``.
 """
 
-from dmpcpp.simulation.bullet import Bullet
-from dmpcpp.simulation.check import Check, Checked
-from dmpcpp.simulation.disturbance import Disturbance
-from dmpcpp.simulation.execution import execute
-from dmpcpp.simulation.execution_log import ContactEvent, ExecutionLog
-from dmpcpp.simulation.grasp_world import GraspWorld
-from dmpcpp.simulation.gripper import PANDA_HAND, ParallelGripper
-from dmpcpp.simulation.mujoco import MuJoCo
-from dmpcpp.simulation.objects import Cylinder, Friction
-from dmpcpp.simulation.obstacles import Box
-from dmpcpp.simulation.path_check import PathTolerances, contacts_along, path_checks
-from dmpcpp.simulation.reference import Reference, from_rest_to_rest
-from dmpcpp.simulation.second_opinion import AgreementTolerances, agreement
-from dmpcpp.simulation.simulator import Clearance, Contact, Simulator
-from dmpcpp.simulation.torque_scaling import torque_duration_factor
-from dmpcpp.simulation.verdict import Tolerances, Verdict, judge
+from dmpcpp.checks import Check, Checked
+from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.simulation._bullet import Bullet
+from dmpcpp.simulation._execution import execute
+from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
+from dmpcpp.simulation._grasp_world import GraspWorld
+from dmpcpp.simulation._gripper import PANDA_HAND, ParallelGripper
+from dmpcpp.simulation._mujoco import MuJoCo
+from dmpcpp.simulation._objects import Cylinder, Friction
+from dmpcpp.simulation._obstacles import Box
+from dmpcpp.simulation._path_check import PathTolerances, contacts_along, path_checks
+from dmpcpp.simulation._reference import Reference, from_rest_to_rest
+from dmpcpp.simulation._second_opinion import AgreementTolerances, agreement
+from dmpcpp.simulation._simulator import Clearance, Contact, Simulator
+from dmpcpp.simulation._torque_scaling import torque_duration_factor
+from dmpcpp.simulation._verdict import Tolerances, Verdict, judge
 
 ENGINES = {"bullet": Bullet, "mujoco": MuJoCo}
 """The engines by the names of the command line."""

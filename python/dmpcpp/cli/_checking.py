@@ -1,0 +1,74 @@
+"""`dmpcpp check-urdf` and `dmpcpp doctor`: is the robot's description, and is the installation, fit for the work."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import click
+
+from dmpcpp.cli._group import FAILED
+
+
+@click.command("check-urdf")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--base", metavar="LINK", help="Where the arm begins; the root unless given.")
+@click.option("--tip", metavar="LINK", help="The link that follows the motion; the only leaf unless given.")
+@click.option("--json", "as_json", is_flag=True, help="Print the report as JSON instead of the table.")
+def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> None:
+    """Name every defect of FILE, a URDF, that the loader, the planner and the physics would meet.
+
+    Exit status: 0 none, 2 the file can not be read, 3 there are some.
+
+    Example: dmpcpp check-urdf my_robot.urdf --base base_link --tip tool0
+    """
+    from dmpcpp.robot import urdf_check
+
+    report = urdf_check.check(file, base or "", tip or "")
+    if as_json:
+        click.echo(json.dumps(report.summary(), indent=2))
+    else:
+        for defect in report.defects:
+            kind = click.style("error  ", fg="red", bold=True) if defect.fatal else click.style("warning", fg="yellow")
+            click.echo(f"{kind} {defect.where}: {defect.what}. {defect.to_do}")
+        if report.arm is not None:
+            arm = report.arm
+            click.echo(f"{arm.name}: {arm.joint_count} joints from {arm.base} to {arm.tip}")
+        fatal = sum(defect.fatal for defect in report.defects)
+        count = len(report.defects)
+        click.echo(f"{fatal} error(s), {count - fatal} warning(s)" if count else "no defect found")
+    if not report.ok:
+        sys.exit(FAILED)
+
+
+@click.command()
+@click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON instead of the table.")
+def doctor(as_json: bool) -> None:
+    """Check the installation, and say what to install for what.
+
+    Exit status: 0 the main job (`dmpcpp demo`) can be done, 3 something that it needs is missing.
+
+    Example: dmpcpp doctor
+    """
+    from dmpcpp.doctor import examine
+
+    found = examine()
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2))
+    else:
+        from rich.console import Console
+        from rich.markup import escape
+        from rich.table import Table
+
+        table = Table(title="installation", title_justify="left")
+        for title in ("", "part", "found", "for", "to do"):
+            table.add_column(title)
+        for part in found.parts:
+            mark = "[green]ok[/]" if part.ok else "[bold red]missing[/]" if part.needed else "[yellow]missing[/]"
+            table.add_row(mark, *map(escape, (part.name, part.found, part.purpose, "" if part.ok else part.to_do)))
+        console = Console(highlight=False)
+        console.print(table)
+        console.print("ready" if found.ok else "not ready: install what is missing in red")
+    if not found.ok:
+        sys.exit(FAILED)

@@ -1,0 +1,113 @@
+"""`--config FILE.toml`: the options of a command from a file, and the effective ones into a file beside the results."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import click
+
+from dmpcpp import __version__
+from dmpcpp._atomic import write_text
+from dmpcpp.errors import FileError, InvalidArgument
+
+__all__ = ["configurable", "save_config"]
+
+_NOT_SAVED = frozenset({"as_json"})  # how a run is shown, not what it does
+
+
+def configurable(command: click.Command) -> click.Command:
+    """Add --config to a command; what stands on the command line goes before what stands in the file."""
+    command.params.append(
+        click.Option(
+            ["--config"],
+            type=click.Path(path_type=Path),
+            metavar="FILE.toml",
+            is_eager=True,
+            expose_value=False,
+            callback=_take,
+            help="Take arguments and options from this file's table of the command's name; options stated here win.",
+        )
+    )
+    return command
+
+
+def save_config(path: Path) -> None:
+    """Write what the running command works with; with absolute paths, so that it can be repeated from anywhere."""
+    context = click.get_current_context()
+    name = str(context.command.name)
+    lines = [
+        f"# dmpcpp {__version__}. To repeat: dmpcpp {name} --config {path.name}",
+        f"[{name}]",
+        *(
+            f"{key} = {_toml(context.params[name])}"
+            for key, name in _keys(context.command).items()
+            if name in context.params and name not in _NOT_SAVED and context.params[name] not in (None, ())
+        ),
+    ]
+    write_text(path, "\n".join(lines) + "\n")
+
+
+def _take(context: click.Context, _: click.Parameter, path: Path | None) -> None:
+    if path is None:
+        return
+    known, parameters = _keys(context.command), {p.name: p for p in context.command.params}
+    taken = {}
+    for key, value in _table(path, str(context.command.name)).items():
+        name = known.get(key.replace("_", "-"))
+        if name is None:
+            near = difflib.get_close_matches(key, known, n=1)
+            hint = f" Did you mean '{near[0]}'?" if near else ""
+            raise InvalidArgument(f"--config: {path}: '{key}', expected one of {', '.join(sorted(known))}.{hint}")
+        _require_type(context, parameters[name], value, f"--config: {path}: {key}")
+        taken[name] = value
+    context.default_map = taken
+
+
+def _keys(command: click.Command) -> dict[str, str]:
+    """Return the names of parameters by what they are called in a file: as on the command line, without the dashes."""
+    keys = {}
+    for parameter in command.params:
+        flags = [flag for flag in parameter.opts if flag.startswith("--")]
+        key = max(flags, key=len)[2:] if flags else str(parameter.name)
+        if key not in ("config", "help"):
+            keys[key.replace("_", "-")] = str(parameter.name)
+    return keys
+
+
+def _require_type(context: click.Context, parameter: click.Parameter, value: Any, where: str) -> None:
+    """Refuse what click would stumble over; what it refuses itself it says with the name of the option."""
+    try:
+        parameter.type_cast_value(context, value)
+    except click.UsageError:
+        return
+    except (TypeError, ValueError):
+        raise InvalidArgument(f"{where}: {value!r}, expected {parameter.type.name}: text stands in quotes.") from None
+
+
+def _table(path: Path, command: str) -> dict[str, Any]:
+    try:
+        found = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FileError(f"--config: {path}: can not be read ({error.strerror or error}).") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InvalidArgument(f"--config: {path}: not TOML ({error}).") from None
+    table = found.get(command)
+    if not isinstance(table, dict):
+        tables = ", ".join(f"[{name}]" for name in found) or "nothing"
+        raise InvalidArgument(f"--config: {path}: holds {tables}, expected a table [{command}].")
+    return table
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, tuple | list):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    if isinstance(value, Path):
+        return _toml(str(value.absolute()))
+    if isinstance(value, str):
+        absolute = Path(value).absolute() if value.endswith(".urdf") and Path(value).is_file() else value
+        return json.dumps(str(absolute), ensure_ascii=False).replace("\x7f", "\\u007f")
+    return json.dumps(value)  # true, false and numbers are written alike in both

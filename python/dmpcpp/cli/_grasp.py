@@ -1,0 +1,202 @@
+"""`dmpcpp grasp`: a person's reach leads a hand to a bottle, which is grasped, lifted and held up."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp.cli._group import FAILED
+from dmpcpp.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from dmpcpp.grasp import Bottle, Grasp
+    from dmpcpp.recordings import Recording
+
+
+def _bottle_options(command: Callable[..., None]) -> Callable[..., None]:
+    options = (
+        click.option("--x", type=float, metavar="M", help="Where the bottle stands in front of the robot; 0.5."),
+        click.option("--y", type=float, metavar="M", help="Where it stands to the robot's left; 0."),
+        click.option("--yaw", type=float, metavar="DEG", help="From where the hand shall come; 0 is straight ahead."),
+        click.option("--height", type=float, metavar="M", help="Of what the bottle stands on; 0.25, 0 is the floor."),
+        click.option("--mass", type=float, metavar="KG", help="Of the bottle; 0.3."),
+        click.option("--friction", type=float, metavar="MU", help="Of the bottle; 0.8. It multiplies the fingers' 1."),
+        click.option("--seed", type=click.IntRange(0), help="Draw place, yaw and 4 mm of misjudgement at random."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
+    options = (
+        click.option(
+            "--recording", type=click.Path(path_type=Path), metavar="FILE", help="A reach of your own, in any format."
+        ),
+        click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several."),
+        click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table, arrays; by default its own."),
+        click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it."),
+        click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times."),
+        click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
+        click.option("--up-axis", metavar="x|y|z", help="The recording's axis that points up."),
+        click.option("--start", type=float, metavar="S", help="The reach begins here; found by itself unless given."),
+        click.option("--end", type=float, metavar="S", help="The reach ends here."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@click.command()
+@_bottle_options
+@_recording_options
+@click.option("--video", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE", help="A .mp4, .gif or .png.")
+@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON instead of the table.")
+def grasp(
+    x: float | None,
+    y: float | None,
+    yaw: float | None,
+    height: float | None,
+    mass: float | None,
+    friction: float | None,
+    seed: int | None,
+    video: Path | None,
+    as_json: bool,
+    **recording: Any,
+) -> None:
+    """Grasp a bottle with Franka's Panda, lift it by 10 cm and hold it up for 2 s.
+
+    One human reach is learned and led to the bottle by its goal. Friction alone holds the bottle.
+
+    Example: dmpcpp grasp --x 0.45 --y 0.1 --video grasp.mp4
+    """
+    from dmpcpp import grasp as task
+    from dmpcpp.grasp._film import film, refuse_format
+    from dmpcpp.robot import arms
+
+    if video:
+        refuse_format(video)
+    bottle = _bottle({"x": x, "y": y, "yaw": yaw, "height": height}, mass, friction, seed)
+    planner = task.Planner(_reach(**recording), arms.find("panda"))
+    with _progress(as_json) as progress:
+        run = task.grasp(planner, bottle, progress("executing under physics"))
+        if video:
+            film(run, planner.gripper, video, progress("drawing"))
+    if as_json:
+        click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
+    else:
+        _print(run, video)
+    if not run.ok:
+        sys.exit(FAILED)
+
+
+def _bottle(place: dict[str, float | None], mass: float | None, friction: float | None, seed: int | None) -> Bottle:
+    """Return the bottle as drawn or as it stands by default, changed by what was stated."""
+    from dataclasses import replace
+
+    import numpy as np
+
+    from dmpcpp.grasp import Bottle, random_bottle
+
+    bottle = Bottle() if seed is None else random_bottle(np.random.default_rng(seed))
+    stated = {name: value for name, value in place.items() if value is not None}
+    if "yaw" in stated:
+        stated["yaw"] = math.radians(stated["yaw"])
+    cylinder = bottle.cylinder
+    if mass is not None:
+        cylinder = replace(cylinder, mass=mass)
+    if friction is not None:
+        cylinder = replace(cylinder, friction=replace(cylinder.friction, lateral=friction))
+    return replace(bottle, cylinder=cylinder, **stated)  # type: ignore[arg-type]
+
+
+def _reach(
+    recording: Path | None,
+    body: str | None,
+    format_: str | None,
+    start: float | None,
+    end: float | None,
+    **stated: Any,
+) -> Recording:
+    from dmpcpp import grasp, motion, recordings
+
+    said = {name: value for name, value in stated.items() if value is not None}
+    if recording is None:
+        unused = [
+            name
+            for name, value in {"body": body, "format": format_, "start": start, "end": end, **said}.items()
+            if value is not None
+        ]
+        if unused:
+            raise InvalidArgument(f"--{unused[0].replace('_', '-')}: it describes a recording; state --recording FILE.")
+        return grasp.default_reach()
+    loaded = recordings.load(recording, body, format_, **said)
+    if start is None and end is None:
+        return grasp.longest_reach(loaded)
+    return motion.crop(loaded, start or 0.0, end)
+
+
+@contextmanager
+def _progress(hidden: bool) -> Iterator[Callable[[str], Callable[[float], None]]]:
+    """Give bars on stderr by their titles."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description:<24}"), BarColumn(), TimeElapsedColumn())
+    off = hidden or not sys.stderr.isatty()
+    with Progress(*columns, console=Console(stderr=True), transient=True, disable=off) as bars:
+
+        def begin(title: str) -> Callable[[float], None]:
+            task = bars.add_task(title, total=1.0)
+            return lambda done: bars.update(task, completed=done)
+
+        yield begin
+
+
+def _print(run: Grasp, video: Path | None) -> None:
+    from rich.console import Console
+
+    from dmpcpp.grasp import CAVEAT
+
+    console = Console(highlight=False)
+    for line in run.plan.history:
+        console.print(line, style="dim", soft_wrap=True, markup=False)
+    plan, bottle = run.plan, run.plan.bottle
+    place = f"x {bottle.x:.3f}, y {bottle.y:.3f}, z {bottle.height:.3f} m, yaw {math.degrees(bottle.yaw):.1f} deg"
+    hand = f"{math.degrees(plan.pitch):.0f} deg down and passes it at {1e3 * plan.clearance:.1f} mm"
+    console.print(f"bottle at {place}; the hand points {hand}", soft_wrap=True)
+    begins = ", ".join(f"{name} {time:.2f} s" for name, time in run.log.phases.items())
+    console.print(f"{begins}; the reach takes {plan.slowdown:.2f} x the recorded duration", soft_wrap=True)
+    console.print(_table(run))
+    failed = ", ".join(check.name for check in run.failed)
+    word, style = ("held up", "bold green") if run.ok else ("not verified", "bold red")
+    console.print(word, style=style, end=": ")
+    console.print(f"failed: {failed}" if failed else f"{run.log.simulator}, computed torque. {CAVEAT}.", soft_wrap=True)
+    if video:
+        console.print(f"written to {video}", soft_wrap=True, markup=False)
+
+
+def _table(run: Grasp) -> Table:
+    from rich.markup import escape
+    from rich.table import Table
+
+    shown = {"m": (1e3, "mm"), "rad": (math.degrees(1.0), "deg")}
+    table = Table(title="checks", title_justify="left")
+    for title in ("", "check", "value", "limit", "unit", "where"):
+        table.add_column(title, justify="right" if title in ("value", "limit") else "left", no_wrap=title == "check")
+    for check in run.checks:
+        scale, unit = shown.get(check.unit, (1.0, check.unit))
+        where = f"{check.time:.2f} s " if check.time is not None else ""
+        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
+        numbers = (f"{scale * check.value:.3g}", f"{scale * check.limit:.3g}")
+        table.add_row(mark, check.name, *numbers, unit, escape(where + check.detail))
+    return table

@@ -1,0 +1,278 @@
+"""`dmpcpp demo` and `dmpcpp imitate`: a recorded motion, carried out by an arm under physics."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp.cli._config import save_config
+from dmpcpp.cli._group import FAILED, refuse_file
+from dmpcpp.cli._options import arm_options
+from dmpcpp.cli._placing import placing_options, taken_placing
+from dmpcpp.cli._preparation import preparation_options, taken_preparation
+from dmpcpp.cli._recording_options import recording_options, taken_recording
+from dmpcpp.cli._tables import checks_table, note_style, way
+from dmpcpp.errors import MissingDependency
+
+if TYPE_CHECKING:
+    from dmpcpp._core import Arm
+    from dmpcpp.imitation import Imitation, Progress
+    from dmpcpp.recordings import Recording
+
+
+_DEMO = {"clip": "dance_b", "body": "right_hand", "arm": "panda"}
+
+
+def _run_options(
+    default_out: str | None, shown: str | bool = True
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        options = (
+            click.option(
+                "--out",
+                default=default_out,
+                show_default=shown,
+                type=click.Path(file_okay=False, path_type=Path),
+                help="Folder for the model, plan, joints, execution, picture, summary, config and report.",
+            ),
+            click.option(
+                "--seed",
+                default=0,
+                show_default=True,
+                type=click.IntRange(0),
+                help="Of the search for a placement.",
+            ),
+            click.option(
+                "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
+            ),
+            click.option(
+                "--simulator",
+                default="bullet",
+                show_default=True,
+                type=click.Choice(["bullet", "mujoco", "both"]),
+                help="Physics engine; with both the two are compared.",
+            ),
+            click.option(
+                "--export",
+                "formats",
+                multiple=True,
+                type=click.Choice(["ros2", "ros2-bag", "urscript"]),
+                help="Write what the robot is sent too, once verified: joints.yaml, joints_bag, joints.script. May be "
+                "repeated.",
+            ),
+            click.option(
+                "--no-report", is_flag=True, help="Do not make report.html; `dmpcpp report` can make it later."
+            ),
+            click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
+        )
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+@click.command()
+@click.option("--clip", default=_DEMO["clip"], show_default=True, help="One of the clips that ship with PyBullet.")
+@click.option("--body", default=_DEMO["body"], show_default=True, help="Whose motion.")
+@arm_options
+@_run_options(None, "dmpcpp-demo, followed by the clip, body and arm that were stated otherwise")
+def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
+    """Show the main job on a human motion that every installation has.
+
+    Example: dmpcpp demo --clip dance_b --arm iiwa --out dance
+    """
+    from dmpcpp import recordings
+    from dmpcpp.robot import arms
+
+    if run["out"] is None:
+        run["out"] = _demo_folder({"clip": clip, "body": body, "arm": arm}, base, tip)
+        click.get_current_context().params["out"] = run["out"]  # which config.toml shall hold
+    _carry_out(recordings.clip(clip, body), arms.load(arm, base, tip), **run)
+
+
+def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> Path:
+    """Return a folder of its own for every clip, body and arm; dmpcpp-demo for what is shown unless stated."""
+    other = [Path(value).name for name, value in chosen.items() if value != _DEMO[name]]
+    return Path("-".join(["dmpcpp-demo", *other, *filter(None, (base, tip))]))
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@recording_options
+@preparation_options
+@placing_options
+@arm_options
+@_run_options("dmpcpp-imitation")
+def imitate(
+    file: Path,
+    arm: str,
+    base: str | None,
+    tip: str | None,
+    **options: Any,
+) -> None:
+    """Carry out the motion in FILE, a recording in any of the formats that `dmpcpp inspect` lists.
+
+    Example: dmpcpp imitate session.csv --body hand --unit mm --arm panda --out session
+    """
+    from dmpcpp import motion, recordings
+    from dmpcpp.robot import arms
+
+    preparation, smooth = taken_preparation(options)
+    placing = taken_placing(options)
+    names = ("out", "seed", "basis_count", "simulator", "formats", "no_report", "as_json")
+    run = {name: options.pop(name) for name in names}
+    recording = recordings.load(file, **taken_recording(options))
+    recording = motion.prepare(recording, preparation)
+    _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, **placing, **run)
+
+
+def _carry_out(
+    recording: Recording,
+    arm: Arm,
+    *,
+    out: Path,
+    seed: int,
+    basis_count: int | None,
+    simulator: str,
+    formats: tuple[str, ...],
+    no_report: bool,
+    as_json: bool,
+    **how: Any,
+) -> None:
+    from dmpcpp import export, imitation
+
+    refuse_file(out)
+    export.chosen(formats, arm)  # what can not be written is refused before anything runs
+    with _progress(as_json) as progress:
+        run = imitation.imitate(
+            recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
+        )
+    sent = imitation.write(run, out, formats)
+    save_config(out / "config.toml")
+    missing = None if no_report else _report(out)
+    if as_json:
+        click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
+    else:
+        _print(run, out)
+        if formats:
+            click.echo(f"for the robot: {', '.join(sent)}" if sent else "for the robot: nothing, as it is not verified")
+    if missing:
+        click.echo(f"dmpcpp: no report: {missing}", err=True)
+    if not run.ok:
+        sys.exit(FAILED)
+
+
+def _report(out: Path) -> str | None:
+    """Make the report; return what is missing for it, if something is: the run itself is good without."""
+    from dmpcpp.show import report
+
+    try:
+        report.write(out)
+    except MissingDependency as error:
+        (out / "report.html").unlink(missing_ok=True)  # an older one would tell of another run
+        return str(error)
+    return None
+
+
+@contextmanager
+def _progress(hidden: bool) -> Iterator[Progress]:
+    """Show a bar on stderr while the flow runs."""
+    from rich.console import Console
+    from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    from dmpcpp.imitation import STAGES
+
+    titles = {
+        "place": "placing the motion in the arm's workspace",
+        "learn": "learning the motion",
+        "solve": "solving the inverse kinematics",
+        "execute": "executing under physics",
+    }
+    columns = (SpinnerColumn(), TextColumn("{task.description:<42}"), BarColumn(), TimeElapsedColumn())
+    with Bar(*columns, console=Console(stderr=True), transient=True, disable=hidden or not sys.stderr.isatty()) as bar:
+        task = bar.add_task(titles[STAGES[0]], total=len(STAGES))
+
+        def tell(stage: str, done: float) -> None:
+            bar.update(task, description=titles[stage], completed=STAGES.index(stage) + done)
+
+        yield tell
+
+
+def _print(run: Imitation, out: Path) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    for line in run.recording.history:
+        console.print(line, style=note_style(line), soft_wrap=True, markup=False)
+    for line in run.log.arm.warnings:
+        console.print(f"arm: {line}", style="yellow", soft_wrap=True, markup=False)
+    console.print(
+        f"{run.model.options.basis_count} kernels; {run.plan.time[-1]:.2f} s, "
+        f"{run.slowdown:.2f} x the recorded duration; {way(run.model)} m in the frame of '{run.log.arm.base}'",
+        soft_wrap=True,
+        markup=False,
+    )
+    console.print(_errors_table(run, Table))
+    console.print(checks_table(run.checks))
+    console.print(
+        "verified" if run.ok else "not verified", style="bold green" if run.ok else "bold red", markup=False, end=": "
+    )
+    console.print(_reason(run), soft_wrap=True, markup=False)
+    caution = "" if run.ok else "; its joints.csv is not for a robot"
+    console.print(f"written to {out}/{caution}", soft_wrap=True, markup=False)
+
+
+_ADVICE = {
+    "self_collision": "The arm touches itself: move the path away from its base, or let it be placed.",
+    "ik_position_residual": "The path leaves what the arm can reach: let it be placed, or crop it.",
+    "reproduction_position_rmse": "The recording is noisy or fast for its rate: --smooth, --low-pass or --end help.",
+}
+
+
+def _reason(run: Imitation) -> str:
+    """What was verified, or which checks failed and what to do about the likely cause."""
+    how = _how(run)
+    failed = {check.name: check for check in run.failed}
+    if not failed:
+        return how
+    first = next((name for name in _ADVICE if name in failed), next(iter(failed)))
+    names = [first, *(name for name in failed if name != first)]
+    numbers = ", ".join(f"{n} {failed[n].value:.3g} (limit {failed[n].limit:.3g} {failed[n].unit})" for n in names)
+    return f"{len(failed)} of {len(run.checks)} checks failed: {numbers}. {_ADVICE.get(first, '')}".rstrip() + f" {how}"
+
+
+def _how(run: Imitation) -> str:
+    """By what it was judged, and what that can not see."""
+    engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
+    return f"{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
+
+
+def _errors_table(run: Imitation, table_type: type) -> Any:
+    from rich.markup import escape
+
+    names = {
+        "demonstration_to_dmp": "demonstration → DMP",
+        "dmp_to_ik": "DMP → FK(IK)",
+        "ik_to_executed": "FK(IK) → executed",
+    }
+    table = table_type(title="errors", title_justify="left")
+    table.add_column("stage")
+    for title in ("position RMSE [mm]", "max [mm]", "angle RMSE [deg]", "max [deg]"):
+        table.add_column(escape(title), justify="right")
+    for stage, errors in run.stages.items():
+        lengths = (1e3 * errors.position_rmse, 1e3 * errors.position_max)
+        turns = (57.29577951308232 * errors.angle_rmse, 57.29577951308232 * errors.angle_max)
+        table.add_row(
+            names[stage],
+            *(f"{value:.2g}" if value < 0.01 else f"{value:.3f}" for value in (*lengths, *turns)),
+        )
+    return table

@@ -1,0 +1,158 @@
+"""`dmpcpp inspect`: what a recording holds and what is still to be stated about it."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._recording_options import flag, in_flags, recording_options, taken_recording
+from dmpcpp.cli._tables import note_style
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from dmpcpp.inspection import BodyReport, Inspection
+
+_JITTER = 0.5  # of the usual step; a shorter one is worth a word
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@recording_options
+@click.option("--json", "as_json", is_flag=True, help="Print the report as JSON (m, s, rad) instead of the tables.")
+def inspect(file: Path, as_json: bool, **options: Any) -> None:
+    """Say what FILE holds: bodies or markers, rate, gaps, jumps, noise, extent, and what is still to be stated.
+
+    FILE is a recording: BVH, C3D, TRC, MOT, ROS bag or MCAP, Qualisys TSV, Motive, Vicon, EuRoC or Aria CSV, TUM, a
+    table, .npy or .npz, a DeepMimic clip. Exit status: 0 it can be learned as it is, 2 it can not be read, 3 something
+    is to be stated or to be mended first.
+
+    Example: dmpcpp inspect lift.c3d --markers WRIST,STYLr,STYLu
+    """
+    from dmpcpp import inspection
+
+    found = inspection.inspect(file, **taken_recording(options))
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2, allow_nan=False))
+    else:
+        _print(found)
+    if not found.ok:
+        sys.exit(FAILED)
+
+
+def _print(found: Inspection) -> None:
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    console.print(f"{found.source}: {found.format}", markup=False, soft_wrap=True)
+    if found.bodies:
+        console.print(_bodies_table(found))
+        _print_extents(console, found.bodies)
+        _print_uneven(console, found.bodies)
+        _print_history(console, found.bodies)
+    if found.markers:
+        console.print(_markers_table(found))
+    for title, entries in (("to state", found.needed), ("taken", found.assumed)):
+        for name, text in entries.items():
+            said = in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line
+            console.print(f"{title}: {flag(name)}: {said}", markup=False, soft_wrap=True)
+    for problem in found.problems:
+        console.print(in_flags(problem), style="bold red", markup=False, soft_wrap=True)
+    verdict = "ready to be learned" if found.ok else "not ready to be learned"
+    console.print(verdict, style="bold green" if found.ok else "bold red")
+
+
+def _print_history(console: Console, bodies: tuple[BodyReport, ...]) -> None:
+    """Print what was done while reading; what all bodies share once."""
+    shared = [note for note in bodies[0].history if all(note in body.history for body in bodies)]
+    for note in shared:
+        console.print(f"  {note}", style=note_style(note), markup=False, soft_wrap=True)
+    for body in bodies:
+        for note in body.history:
+            if note not in shared:
+                console.print(f"  {body.name}: {note}", style=note_style(note), markup=False, soft_wrap=True)
+
+
+def _table(title: str, *columns: str) -> Table:
+    from rich import box
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(title=escape(title), title_justify="left", box=box.SIMPLE, padding=(0, 1, 0, 0))
+    for k, column in enumerate(columns):
+        table.add_column(escape(column), justify="left" if k == 0 else "right")
+    return table
+
+
+def _bodies_table(found: Inspection) -> Table:
+    from rich.markup import escape
+
+    table = _table("bodies", "", "samples", "s", "Hz", "lost", "gap [s]", "jumps", "noise [mm]", "[deg]", "peak [m/s]")
+    for body in found.bodies:
+        if body.refused:
+            table.add_row(escape(body.name), "refused")
+            continue
+        table.add_row(
+            escape(body.name),
+            str(body.samples),
+            f"{body.duration:.2f}",
+            f"{body.rate:.1f}",
+            str(body.missing + body.skipped),
+            f"{body.longest_gap:.2f}",
+            str(body.jumps),
+            f"{1e3 * body.noise_position:.2g}",
+            f"{math.degrees(body.noise_angle):.2g}",
+            f"{body.peak_speed:.2f}",
+        )
+    return table
+
+
+def _print_extents(console: Console, bodies: tuple[BodyReport, ...]) -> None:
+    for body in bodies:
+        if not body.refused:
+            console.print(
+                f"  {body.name}: moves over {_millimetres(body.extent)} mm in x, y, z; turns at most at "
+                f"{math.degrees(body.peak_turning):.0f} deg/s",
+                markup=False,
+                soft_wrap=True,
+            )
+
+
+def _print_uneven(console: Console, bodies: tuple[BodyReport, ...]) -> None:
+    """Print where samples follow each other much faster than they usually do: stamps that jitter are noise too."""
+    for body in bodies:
+        least, usual, largest = (1e3 * step for step in body.steps)
+        if not body.refused and least < _JITTER * usual:
+            console.print(
+                f"  {body.name}: steps of {least:.3g} to {largest:.3g} ms, usually {usual:.3g} ms; where only the "
+                f"stamps jitter, a table is better read at an even --rate {body.rate:.4g}",
+                markup=False,
+                soft_wrap=True,
+            )
+
+
+def _markers_table(found: Inspection) -> Table:
+    from rich.markup import escape
+
+    title = f"markers: {found.samples} samples, {found.duration:.2f} s, {found.rate:.1f} Hz"
+    table = _table(title, "", "missing", "longest gap [s]", "noise [mm]", "extent x y z [mm]")
+    for marker in found.markers:
+        table.add_row(
+            escape(marker.name),
+            f"{100 * marker.missing / found.samples:.1f} %",
+            f"{marker.longest_gap:.2f}",
+            f"{1e3 * marker.noise_position:.2g}",
+            _millimetres(marker.extent),
+        )
+    return table
+
+
+def _millimetres(extent: tuple[float, float, float]) -> str:
+    return " ".join(f"{1e3 * length:.0f}" for length in extent)

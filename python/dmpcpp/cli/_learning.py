@@ -1,0 +1,239 @@
+"""`dmpcpp fit` and `dmpcpp plan`: recordings to a model file, and a model file to joints of an arm."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp.cli._config import save_config
+from dmpcpp.cli._group import FAILED, refuse_file
+from dmpcpp.cli._options import arm_options
+from dmpcpp.cli._placing import scale_range
+from dmpcpp.cli._preparation import preparation_options, taken_preparation
+from dmpcpp.cli._recording_options import recording_options, taken_recording
+from dmpcpp.cli._tables import checks_table, note_style, way
+from dmpcpp.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from dmpcpp.planning import JointPlan
+    from dmpcpp.teaching import Lesson
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
+@recording_options
+@preparation_options
+@click.option(
+    "--arm", metavar="NAME|FILE.urdf", help="Place the first recording in this arm's workspace, the others with it."
+)
+@click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given.")
+@click.option("--tip", metavar="LINK", help="The link of a URDF that follows the motion; its only leaf unless given.")
+@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions in the arm's workspace, or its range; 0.25:1.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the search for a placement.")
+@click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed.")
+@click.option(
+    "--out",
+    default="model.json",
+    show_default=True,
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="The model file; its options are written beside it, into NAME.config.toml.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the fit report as JSON instead of the tables.")
+def fit(
+    files: tuple[Path, ...],
+    arm: str | None,
+    base: str | None,
+    tip: str | None,
+    scale: str | None,
+    seed: int,
+    basis_count: int | None,
+    out: Path,
+    as_json: bool,
+    **options: Any,
+) -> None:
+    """Learn the motion in FILE, or in several FILEs of one motion together, and write a model file.
+
+    Without --arm the model is one of the recorded poses, z up; with it, of poses of the arm's tip in its base frame,
+    ready for `dmpcpp plan`.
+
+    Example: dmpcpp fit reach.bvh --body RightHand --unit cm --arm panda --out reach.json
+    """
+    from dmpcpp import motion, recordings, save, teaching
+    from dmpcpp.robot import arms
+
+    refuse_file(out.parent)
+    preparation, smooth = taken_preparation(options)
+    stated = taken_recording(options)
+    found = [motion.prepare(recordings.load(file, **stated), preparation) for file in files]
+    if arm is not None:
+        found = teaching.placed(found, arms.load(arm, base, tip), scale=scale_range(scale), seed=seed)
+    elif base or tip or scale:
+        raise InvalidArgument("--base, --tip, --scale: without --arm they say nothing. State --arm too.")
+    lesson = teaching.teach(found, basis_count=basis_count, smooth=smooth)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    save(lesson.model, out)
+    save_config(out.with_name(f"{out.stem}.config.toml"))
+    if as_json:
+        click.echo(json.dumps(lesson.summary(), indent=2, allow_nan=False))
+    else:
+        _print_lesson(lesson, out)
+    if not lesson.ok:
+        sys.exit(FAILED)
+
+
+def _print_lesson(lesson: Lesson, out: Path) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    for line in (line for recording in lesson.recordings for line in recording.history):
+        console.print(line, style=note_style(line), soft_wrap=True, markup=False)
+    table = Table(title="the model against what it was learned from", title_justify="left")
+    for title in ("mm, deg", "x", "y", "z", "rot x", "rot y", "rot z"):
+        table.add_column(title, justify="left" if title == "mm, deg" else "right", no_wrap=True)
+    for name, values in (("RMSE", lesson.fit.rmse), ("largest", lesson.fit.largest), ("noise found", lesson.fit.noise)):
+        shown = (*(1e3 * values[:3]), *(math.degrees(value) for value in values[3:]))
+        table.add_row(name, *(f"{value:.2g}" for value in shown))
+    console.print(table)
+    for warning in lesson.fit.warnings:
+        console.print(warning, style="yellow", soft_wrap=True, markup=False)
+    if lesson.checks:
+        console.print(checks_table(lesson.checks))
+    console.print(
+        f"{lesson.model.options.basis_count} kernels, {lesson.model.duration:.2f} s, {way(lesson.model)} m; "
+        f"written to {out}",
+        soft_wrap=True,
+        markup=False,
+    )
+
+
+@click.command()
+@click.argument("model", type=click.Path(path_type=Path), metavar="MODEL")
+@arm_options
+@click.option(
+    "--goal",
+    metavar="X,Y,Z[,QX,QY,QZ,QW]",
+    help="Where to end [m], in the arm's base frame; as demonstrated unless given.",
+)
+@click.option(
+    "--duration", type=float, metavar="S", help="As demonstrated unless given; longer where limits ask for it."
+)
+@click.option("--exact-duration", is_flag=True, help="Never take longer: a check fails where limits ask for it.")
+@click.option("--from-joints", metavar="Q1,Q2,..", help="Where the arm stands [rad]; searched unless given.")
+@click.option(
+    "--simulator",
+    default="bullet",
+    show_default=True,
+    type=click.Choice(["bullet", "mujoco", "none"]),
+    help="In whose geometry the path is looked at for contacts.",
+)
+@click.option(
+    "--out",
+    default="dmpcpp-plan",
+    show_default=True,
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Folder for plan.npz, summary.json, config.toml and, where every check held, joints.csv.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
+def plan(
+    model: Path,
+    arm: str,
+    base: str | None,
+    tip: str | None,
+    goal: str | None,
+    duration: float | None,
+    exact_duration: bool,
+    from_joints: str | None,
+    simulator: str,
+    out: Path,
+    as_json: bool,
+) -> None:
+    """Lead the motion in MODEL, a model file, to a goal in a time, and write the joints of an arm for it.
+
+    Checked are inverse kinematics, joint limits and contacts of the arm with itself and the floor; `dmpcpp imitate`
+    executes under physics as well. Where a check fails there is no joints.csv.
+
+    Example: dmpcpp plan reach.json --arm panda --goal 0.5,0.1,0.4 --duration 3 --out plan
+    """
+    from dmpcpp import load, planning, simulation
+    from dmpcpp.robot import arms
+
+    refuse_file(out)
+    learned = load(model)
+    found = planning.plan(
+        learned,
+        arms.load(arm, base, tip),
+        goal=_goal(goal, learned),
+        duration=duration,
+        start=_numbers("--from-joints", from_joints) if from_joints else None,
+        slow_down=not exact_duration,
+        simulator=simulation.ENGINES.get(simulator),
+    )
+    planning.write(found, out)
+    save_config(out / "config.toml")
+    if as_json:
+        click.echo(json.dumps(found.summary(), indent=2, allow_nan=False))
+    else:
+        _print_plan(found, out)
+    if not found.ok:
+        sys.exit(FAILED)
+
+
+def _print_plan(found: JointPlan, out: Path) -> None:
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    console.print(checks_table(found.checks))
+    console.print("planned" if found.ok else "not feasible", style="bold green" if found.ok else "bold red", end="; ")
+    console.print(
+        f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted; written to {out}/", markup=False
+    )
+    if not found.ok:
+        failed = ", ".join(check.name for check in found.failed)
+        console.print(f"no joints.csv: nothing for a robot while checks fail: {failed}", markup=False, soft_wrap=True)
+
+
+def _goal(text: str | None, model: Any) -> NDArray[np.float64] | None:
+    """Return the pose (4, 4): three numbers keep the demonstrated rotation."""
+    if text is None:
+        return None
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    values = _numbers("--goal", text)
+    if len(values) not in (3, 7):
+        raise InvalidArgument(f"--goal: {len(values)} number(s) in '{text}', expected x,y,z or x,y,z,qx,qy,qz,qw.")
+    pose = np.array(model.goal, dtype=np.float64)
+    if pose.shape != (4, 4):
+        raise InvalidArgument(
+            f"--goal: the model's goal has shape {pose.shape}, expected a model of poses. Learn one with `dmpcpp fit`."
+        )
+    pose[:3, 3] = values[:3]
+    if len(values) == 7:
+        length = math.hypot(*values[3:])
+        if not abs(length - 1.0) < 1e-2:
+            raise InvalidArgument(
+                f"--goal: the quaternion in '{text}' has length {length:.3f}, expected 1. Its order is x, y, z, w."
+            )
+        pose[:3, :3] = Rotation.from_quat(values[3:]).as_matrix()
+    return pose
+
+
+def _numbers(option: str, text: str) -> list[float]:
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise InvalidArgument(
+            f"{option}: '{text}', expected numbers with commas between them, such as 0.5,0,0.4."
+        ) from None
+    if not all(map(math.isfinite, values)):
+        raise InvalidArgument(f"{option}: '{text}', expected finite numbers.")
+    return values

@@ -1,0 +1,134 @@
+"""The options that say where a motion shall stand in the arm's workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_SCALE = (0.25, 1.0)
+_ANCHORS = ("anchor_start", "anchor_goal", "anchor_shoulder")
+_POINT, _POSE = "X,Y,Z", "X,Y,Z[,RX,RY,RZ]"
+
+
+def placing_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options to a command; `taken_placing` takes them out of its arguments."""
+    options = (
+        click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame."),
+        click.option(
+            "--scale",
+            metavar="S|MIN:MAX",
+            help="Scale of positions in the arm's workspace, or its range; 0.25:1 unless given.",
+        ),
+        click.option(
+            "--anchor-start",
+            metavar=_POSE,
+            help="Where the motion begins [m, arm's base frame]; with a rotation vector [deg] the tool's orientation "
+            "there too.",
+        ),
+        click.option("--anchor-goal", metavar=_POSE, help="Where it ends, likewise."),
+        click.option(
+            "--anchor-shoulder",
+            metavar=_POINT,
+            help="Where the person's shoulder comes to lie [m, arm's base frame]; needs --shoulder.",
+        ),
+        click.option("--shoulder", metavar=_POINT, help="Where it is in the recording [m]."),
+        click.option("--yaw", type=float, metavar="DEG", help="Turn of an anchored motion; searched unless given."),
+        click.option(
+            "--tool-rotation",
+            metavar="RX,RY,RZ",
+            help="Rotation vector [deg] of the tool in the hand of an anchored motion; searched unless given.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
+    """Take the options out of a command's arguments: `place` and `scale` of `imitation.imitate`."""
+    no_place: bool = options.pop("no_place")
+    if no_place and options["scale"]:
+        raise InvalidArgument("--scale: not together with --no-place, which takes the poses as they are.")
+    scale = scale_range(options.pop("scale"))
+    given = {name: options.pop(name) for name in (*_ANCHORS, "shoulder", "yaw", "tool_rotation")}
+    given = {name: value for name, value in given.items() if value is not None}
+    _consistent(given, no_place)
+    anchor = next((name for name in _ANCHORS if name in given), None)
+    if anchor is None:
+        return {"place": not no_place, "scale": scale}
+    return {"place": _anchored(anchor, given, scale, options["seed"])}
+
+
+def _consistent(given: dict[str, Any], no_place: bool) -> None:
+    """Refuse options that do not go together."""
+    anchors = [_flag(name) for name in _ANCHORS if name in given]
+    if len(anchors) > 1:
+        raise InvalidArgument(f"{' and '.join(anchors)}: expected one anchor.")
+    if given and no_place:
+        raise InvalidArgument(f"{_flag(next(iter(given)))}: not together with --no-place.")
+    if given and not anchors:
+        raise InvalidArgument(
+            f"{_flag(next(iter(given)))}: of an anchored motion; state {', '.join(map(_flag, _ANCHORS))}."
+        )
+    if ("anchor_shoulder" in given) != ("shoulder" in given):
+        raise InvalidArgument("--anchor-shoulder and --shoulder: expected both, where it comes to lie and where it is.")
+
+
+def _anchored(anchor: str, given: dict[str, Any], scale: tuple[float, float], seed: int) -> Callable[..., Any]:
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    from dmpcpp.planning import anchor_within_reach
+
+    on = _numbers("shoulder", given["shoulder"], 3) if "shoulder" in given else anchor.removeprefix("anchor_")
+    at = _numbers(anchor, given[anchor], *((3,) if "shoulder" in given else (3, 6)))
+    if len(at) == 6:
+        pose = np.eye(4)
+        pose[:3, :3] = Rotation.from_rotvec(at[3:], degrees=True).as_matrix()
+        pose[:3, 3] = at[:3]
+        at = pose
+    tool = given.get("tool_rotation")
+    if tool is not None:
+        if at.ndim == 2:
+            raise InvalidArgument(f"--tool-rotation: {_flag(anchor)} has an orientation already; state one of the two.")
+        tool = Rotation.from_rotvec(_numbers("tool_rotation", tool, 3), degrees=True).as_matrix()
+    yaw = np.radians(given["yaw"]) if "yaw" in given else None
+    return partial(anchor_within_reach, at=at, on=on, scale=scale, yaw=yaw, tool_rotation=tool, seed=seed)
+
+
+def _numbers(name: str, text: str, *counts: int) -> NDArray[Any]:
+    import numpy as np
+
+    try:
+        values = np.array([float(part) for part in text.split(",")])
+    except ValueError:
+        values = np.empty(0)
+    if len(values) not in counts or not np.isfinite(values).all():
+        expected = " or ".join(map(str, counts))
+        raise InvalidArgument(f"{_flag(name)}: '{text}', expected {expected} numbers such as 0.4,0,0.5.")
+    return values
+
+
+def scale_range(text: str | None) -> tuple[float, float]:
+    """Return the smallest and the largest scale: '0.5' or '0.4:0.8'; 0.25 to 1 unless given."""
+    if text is None:
+        return _SCALE
+    low, _, high = text.partition(":")
+    try:
+        return float(low), float(high or low)
+    except ValueError:
+        raise InvalidArgument(
+            f"--scale: '{text}', expected a number such as 0.5, or a range such as 0.4:0.8."
+        ) from None
+
+
+def _flag(name: str) -> str:
+    return "--" + name.replace("_", "-")

@@ -1,0 +1,149 @@
+"""`dmpcpp verify`: what a real arm recorded, held against the plan that it was given."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._options import arm_options
+from dmpcpp.cli._tables import checks_table
+from dmpcpp.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from dmpcpp.simulation import Tolerances
+    from dmpcpp.verification import Verification
+
+
+@click.command()
+@click.argument("plan", type=click.Path(path_type=Path))
+@click.argument("log", type=click.Path(path_type=Path))
+@arm_options
+@click.option("--topic", metavar="NAME", help="Of the joint states, where a bag has several.")
+@click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Of a CSV log.")
+@click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Of a CSV log.")
+@click.option("--low-pass", default=20.0, show_default=True, metavar="HZ", help="For velocity and acceleration.")
+@click.option(
+    "--tolerance",
+    "stated",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Another limit than the default [m, rad, ratios], such as position_max=0.005; may be repeated.",
+)
+@click.option(
+    "--simulator",
+    default="bullet",
+    show_default=True,
+    type=click.Choice(["bullet", "mujoco", "none"]),
+    help="In whose geometry the executed path is looked at for contacts.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the tables.")
+def verify(
+    plan: Path,
+    log: Path,
+    arm: str,
+    base: str | None,
+    tip: str | None,
+    topic: str | None,
+    time_unit: str,
+    angle_unit: str,
+    low_pass: float,
+    stated: tuple[str, ...],
+    simulator: str,
+    as_json: bool,
+) -> None:
+    """Measure LOG, recorded on a real arm, against PLAN: the joints.csv of `dmpcpp imitate`, or its folder.
+
+    LOG is a CSV with the columns time, <joints> and optionally <joint>_vel and <joint>_torque, or a ROS bag with
+    sensor_msgs/JointState. Its time lag is estimated from the joints: the two clocks need not agree.
+
+    Example: dmpcpp verify dance/joints.csv robot.csv --arm panda --tolerance position_max=0.005
+    """
+    from dmpcpp import export, simulation, verification
+    from dmpcpp.robot import arms
+
+    tolerances = _tolerances(stated)
+    joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
+    robot = arms.load(arm, base, tip)
+    options = {"time_unit": time_unit, "angle_unit": angle_unit, "topic": topic}
+    result = verification.verify(
+        robot,
+        joints,
+        verification.read_log(log, **options, joints=robot.joint_names),
+        tolerances=tolerances,
+        cutoff=low_pass,
+        simulator=simulation.ENGINES.get(simulator),
+    )
+    if as_json:
+        click.echo(json.dumps(result.summary(), indent=2, allow_nan=False))
+    else:
+        _print(result)
+    if not result.ok:
+        sys.exit(FAILED)
+
+
+def _tolerances(stated: tuple[str, ...]) -> Tolerances:
+    from dmpcpp.simulation import Tolerances
+
+    known = {field.name: field for field in fields(Tolerances)}
+    values: dict[str, float] = {}
+    for text in stated:
+        name, equals, value = text.partition("=")
+        if name not in known or not equals:
+            raise InvalidArgument(f"--tolerance: '{text}', expected NAME=VALUE with a NAME of {', '.join(known)}.")
+        try:
+            values[name] = float(value)
+        except ValueError:
+            raise InvalidArgument(f"--tolerance: '{text}', expected a number after '='.") from None
+        if not math.isfinite(values[name]):
+            raise InvalidArgument(f"--tolerance: '{text}', expected a finite number.")
+    return Tolerances(**values)  # type: ignore[arg-type]
+
+
+def _print(result: Verification) -> None:
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    for line in result.notes:
+        console.print(line, style="dim", soft_wrap=True, markup=False)
+    console.print(f"the plan began at {1e3 * result.lag:.3f} ms of the log's clock (estimated lag)")
+    console.print(_measures_table(result))
+    console.print(checks_table(result.checks))
+    failed = [check.name for check in result.failed]
+    verdict = "[bold red]not verified[/]" if failed else "[bold green]verified[/]"
+    console.print(verdict, end=": ")
+    what = f"{len(failed)} of {len(result.checks)} checks failed: {', '.join(failed)}. " if failed else ""
+    how = f"{result.log.arm.name}, {result.log.simulator}, {result.log.mode} ({result.log.caveat})."
+    console.print(what + how, soft_wrap=True, markup=False)
+
+
+def _measures_table(result: Verification) -> Table:
+    from rich.table import Table
+
+    found, errors = result.comparison, result.comparison.errors
+    rows = (
+        ("position RMSE, max", 1e3, "mm", errors.position_rmse, errors.position_max),
+        ("angle RMSE, max", math.degrees(1.0), "deg", errors.angle_rmse, errors.angle_max),
+        ("last pose: position", 1e3, "mm", found.final.position),
+        ("last pose: angle", math.degrees(1.0), "deg", found.final.angle),
+        ("DTW a sample, Frechet", 1e3, "mm", found.dtw, found.frechet),
+        ("remaining lag of the tool", 1e3, "ms", found.lag),
+        ("smoothness against the plan: SPARC, log jerk", 1.0, "", found.sparc, found.log_dimensionless_jerk),
+        ("margin of velocity, torque", 100.0, "%", result.velocity_margin, result.torque_margin),
+    )
+    table = Table(title="executed against the plan, lag taken out", title_justify="left")
+    table.add_column("")
+    for title in ("value", "", "unit"):
+        table.add_column(title, justify="left" if title == "unit" else "right")
+    for name, scale, unit, *values in rows:
+        shown = ["-" if value is None else f"{scale * value:.3g}" for value in values]
+        table.add_row(name, *(shown if len(shown) == 2 else [*shown, ""]), unit)
+    return table

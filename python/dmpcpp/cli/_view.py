@@ -1,0 +1,33 @@
+"""`dmpcpp view`: a model in the browser."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+from dmpcpp.cli._options import arm_options
+
+
+@click.command()
+@click.argument("model", type=click.Path(path_type=Path), metavar="MODEL")
+@arm_options
+@click.option("--host", default="127.0.0.1", show_default=True, help="Who may look; 0.0.0.0 is everyone.")
+@click.option("--port", default=8080, show_default=True, type=click.IntRange(1, 65535), help="The first that is tried.")
+@click.option("--json", "as_json", is_flag=True, help="Print the page's address as JSON.")
+def view(model: Path, arm: str, base: str | None, tip: str | None, host: str, port: int, as_json: bool) -> None:
+    """Show MODEL, a model file, in the browser: drag its goal and start, change time, gain and kernels.
+
+    The motion, the arm's joints and how near they come to their limits follow at once. Ctrl-C ends it.
+
+    Example: dmpcpp view reach.json --arm panda
+    """
+    from dmpcpp import load
+    from dmpcpp.robot import arms
+    from dmpcpp.show import view as library
+
+    def ready(address: str) -> None:
+        click.echo(json.dumps({"address": address}) if as_json else f"open {address} (Ctrl-C ends it)")
+
+    library.serve(load(model), arms.load(arm, base, tip), host=host, port=port, ready=ready)

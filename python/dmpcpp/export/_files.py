@@ -1,0 +1,204 @@
+"""Trajectories out, in the files that robot engineers use, and back in; each written whole or not at all.
+
+Joint CSV: `time,<joints>,<joints>_vel,<joints>_acc`; s, rad (m for a sliding joint). Plan: a .npz with
+`time`, `pose`, `twist`, and the names of units and frames. TUM: `t tx ty tz qx qy qz qw`; read it, or a
+plan, with `recordings.load`.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
+
+from dmpcpp._atomic import replacing, write_text
+from dmpcpp._text import number, read_text
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.export._checks import JointMotion, JointSamples, checked, finite, strict_times
+from dmpcpp.recordings._formats.arrays import read_arrays
+from dmpcpp.recordings._recording import Array
+
+if TYPE_CHECKING:
+    from dmpcpp import Arm
+
+__all__ = ["Plan", "read_joints", "read_plan", "write_joints", "write_plan", "write_tum"]
+
+_UNITS = "time s; pose m; twist m/s and rad/s, in the base frame"
+
+
+class PoseMotion(Protocol):
+    """What `write_plan` takes: a dmpcpp.PoseTrajectory, or anything with its fields."""
+
+    @property
+    def time(self) -> Array:
+        """(T,) s."""
+
+    @property
+    def pose(self) -> Array:
+        """(T, 4, 4) [R p; 0 1]."""
+
+    @property
+    def twist(self) -> Array:
+        """(T, 6) m/s, rad/s."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What a plan holds: time (T,) s, pose (T, 4, 4) of tip in base, twist (T, 6), names of both frames."""
+
+    time: Array
+    pose: Array
+    twist: Array
+    base: str
+    tip: str
+
+
+def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | None = None) -> None:
+    """Write a joint trajectory as CSV; the numbers read back exactly.
+
+    Parameters
+    ----------
+    path : path
+    trajectory : JointTrajectory
+        time (T,), position, velocity and acceleration (T, n), joint_names (n).
+    arm : Arm, optional
+        Whose limits of position and velocity the joints must hold.
+
+    Raises
+    ------
+    InvalidArgument
+        A number that is not finite (named by row and joint), arrays whose sizes differ, time that does not
+        increase, a joint without a name or two of the same name.
+    FileError
+        The file can not be written; an older one is untouched.
+    """
+    samples = checked(trajectory, arm)
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_header(samples.joint_names))
+    rows = np.column_stack([samples.time, samples.position, samples.velocity, samples.acceleration])
+    writer.writerows(rows.tolist())
+    write_text(path, text.getvalue())
+
+
+def read_joints(path: str | PathLike[str]) -> JointSamples:
+    """Read a joint CSV that `write_joints` wrote.
+
+    Raises
+    ------
+    FileError
+        The file is missing or can not be read.
+    InvalidArgument
+        The header is another, or a line is damaged; the message names it.
+    """
+    path = Path(path)
+    lines = read_text(path).splitlines()
+    try:
+        rows = list(csv.reader(lines))
+    except csv.Error as error:
+        raise InvalidArgument(f"{path.name}: not a CSV ({error}).") from None
+    header = rows[0] if rows else []
+    names = tuple(header[1 : 1 + (len(header) - 1) // 3])
+    if not names or header != _header(names):
+        raise InvalidArgument(f"{path.name}: line 1, expected time,<joints>,<joints>_vel,<joints>_acc.")
+    values = _numbers(path, rows[1:], header)
+    position, velocity, acceleration = np.split(values[:, 1:], 3, axis=1)
+    return JointSamples(strict_times(values[:, 0]), position, velocity, acceleration, names)
+
+
+def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str = "base", tip: str = "tip") -> None:
+    """Write a pose trajectory as .npz with the arrays `time`, `pose`, `twist` and the texts `units`,
+    `base`, `tip`.
+
+    Parameters
+    ----------
+    path : path
+    trajectory : PoseTrajectory
+        time (T,), pose (T, 4, 4), twist (T, 6).
+    base, tip : str
+        The frames: poses are of `tip` in `base`.
+
+    Raises
+    ------
+    InvalidArgument
+        A number that is not finite, arrays whose sizes differ, or time that does not increase.
+    FileError
+        The file can not be written; an older one is untouched.
+    """
+    time = strict_times(trajectory.time)
+    pose = finite("pose", trajectory.pose, (len(time), 4, 4))
+    twist = finite("twist", trajectory.twist, (len(time), 6))
+    with replacing(path) as beside, beside.open("wb") as file:
+        np.savez(file, time=time, pose=pose, twist=twist, units=_UNITS, base=base, tip=tip)
+
+
+def read_plan(path: str | PathLike[str]) -> Plan:
+    """Read a .npz that `write_plan` wrote.
+
+    Raises
+    ------
+    FileError
+        The file is missing or can not be read.
+    InvalidArgument
+        An array is missing, damaged or of another size.
+    """
+    path = Path(path)
+    arrays = read_arrays(path)
+    missing = [name for name in ("time", "pose", "twist", "base", "tip") if name not in arrays]
+    if missing:
+        raise InvalidArgument(f"{path.name}: no array {missing[0]!r}; it holds: {', '.join(arrays) or 'none'}.")
+    time = strict_times(arrays["time"])
+    pose = finite("pose", arrays["pose"], (len(time), 4, 4))
+    twist = finite("twist", arrays["twist"], (len(time), 6))
+    return Plan(time, pose, twist, str(arrays["base"]), str(arrays["tip"]))
+
+
+def write_tum(path: str | PathLike[str], time: ArrayLike, pose: ArrayLike) -> None:
+    """Write poses as a TUM trajectory: lines of `t tx ty tz qx qy qz qw`, s and m.
+
+    Parameters
+    ----------
+    path : path
+    time : array_like (T,)
+        s, strictly increasing.
+    pose : array_like (T, 4, 4)
+        [R p; 0 1], m.
+
+    Raises
+    ------
+    InvalidArgument
+        A number that is not finite, arrays whose sizes differ, time that does not increase, or a reflection.
+    FileError
+        The file can not be written; an older one is untouched.
+    """
+    time = strict_times(time)
+    pose = finite("pose", pose, (len(time), 4, 4))
+    determinant = np.linalg.det(pose[:, :3, :3])
+    if (determinant <= 0.0).any():
+        k = int(np.argmax(determinant <= 0.0))
+        raise InvalidArgument(f"pose[{k}]: det(R) = {determinant[k]:.3f}, expected +1 (a reflection).")
+    quaternion = Rotation.from_matrix(pose[:, :3, :3]).as_quat()
+    rows = np.column_stack([time, pose[:, :3, 3], quaternion]).tolist()
+    lines = ["# timestamp tx ty tz qx qy qz qw", *(" ".join(map(repr, row)) for row in rows)]
+    write_text(path, "\n".join(lines) + "\n")
+
+
+def _header(names: Sequence[str]) -> list[str]:
+    return ["time", *names, *(f"{name}_vel" for name in names), *(f"{name}_acc" for name in names)]
+
+
+def _numbers(path: Path, rows: list[list[str]], header: list[str]) -> Array:
+    values = []
+    for line, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise InvalidArgument(f"{path.name}: line {line}, {len(row)} cells, expected {len(header)}.")
+        values.append([number(cell, line, column) for cell, column in zip(row, header, strict=True)])
+    return np.array(values).reshape(len(values), len(header))

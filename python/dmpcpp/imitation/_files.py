@@ -1,0 +1,131 @@
+"""An imitation as files: the model, the plan, the joints, the execution, a picture and the summary."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp import export, metrics, motion, simulation
+from dmpcpp._atomic import replacing, write_text
+from dmpcpp._core import save
+from dmpcpp.show import plot
+from dmpcpp.show.report._record import RunRecord, drawn, write_record
+
+if TYPE_CHECKING:
+    from dmpcpp.imitation._flow import Imitation
+
+__all__ = ["SENT_RATE", "write"]
+
+SENT_RATE = 125.0
+"""Hz, of the joints that robots are sent: one sample a servoj command; a ROS 2 controller fills in by quintics."""
+
+
+def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = ()) -> tuple[str, ...]:
+    """Write model.json, plan.npz, joints.csv, execution.npz, picture.png and summary.json, each
+    whole or not at all.
+
+    The summary comes last: a folder that has one has all, and `report.write` makes its report. What robots are sent,
+    by the names in `export.FORMATS`, is
+    written of a run whose every check held, from rest to rest as it was simulated and within the arm's limits; what an
+    earlier run left of it is removed.
+
+    Returns
+    -------
+    tuple of str
+        The names of the files for robots; none where a check failed.
+
+    Raises
+    ------
+    InvalidArgument
+        An unknown format, or one that this arm does not take.
+    MissingDependency
+        What a format needs is not installed.
+    FileError
+        The folder or a file can not be written.
+    """
+    chosen = export.chosen(formats, run.log.arm)
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "summary.json").unlink(missing_ok=True)
+    for format_ in export.FORMATS.values():
+        format_.remove(folder)
+    arm = run.log.arm
+    save(run.model, folder / "model.json")
+    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip)
+    export.write_joints(folder / "joints.csv", run.joints)
+    curves = _curves(run)
+    write_record(folder / "execution.npz", _record(run, curves))
+    _picture(run, curves, folder / "picture.png")
+    sent = chosen if run.ok else ()
+    for format_ in sent:
+        format_.write(folder / format_.file, _as_sent(run), arm)
+    write_text(folder / "summary.json", json.dumps(run.summary(), indent=2, allow_nan=False) + "\n")
+    return tuple(format_.file for format_ in sent)
+
+
+def _as_sent(run: Imitation) -> export.JointSamples:
+    """Return the joints as the simulated arm followed them: run up from rest, and stopped at the end."""
+    arm = run.log.arm
+    sent = simulation.from_rest_to_rest(arm, run.joints, SENT_RATE)
+    return export.JointSamples(
+        sent.time - sent.time[0], sent.position, sent.velocity, sent.acceleration, tuple(arm.joint_names)
+    )
+
+
+def _curves(run: Imitation) -> tuple[plot.ErrorCurve, ...]:
+    """How far apart two stages are, over the time of the executed motion."""
+    demonstrated, during = motion.poses(run.recording), run.log.motion
+    again = run.model.rollout_at(run.recording.time).pose
+    solved = run.log.arm.forward_kinematics(run.joints.position)
+
+    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
+        return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
+
+    return (
+        curve("demonstration → DMP", run.slowdown * run.recording.time, demonstrated, again),
+        curve("DMP → FK(IK)", run.plan.time, run.plan.pose, solved),
+        curve(
+            "FK(IK) → executed",
+            run.log.time[during],
+            run.log.desired_tool_pose[during],
+            run.log.tool_pose[during],
+        ),
+    )
+
+
+def _record(run: Imitation, curves: tuple[plot.ErrorCurve, ...]) -> RunRecord:
+    log, during = run.log, run.log.motion
+    few = drawn(len(log.time[during]))
+    return RunRecord(
+        arm=log.arm,
+        demonstrated_time=run.recording.time,
+        demonstrated_pose=motion.poses(run.recording),
+        executed_time=log.time[during][few],
+        executed_pose=log.tool_pose[during][few],
+        executed_joints=log.position[during][few],
+        joint_time=log.time,
+        position=log.position,
+        velocity=log.velocity,
+        torque=log.torque,
+        errors=curves,
+    )
+
+
+def _picture(run: Imitation, curves: tuple[plot.ErrorCurve, ...], path: Path) -> None:
+    with replacing(path) as temporary:
+        plot.picture(
+            temporary,
+            demonstrated=motion.poses(run.recording),
+            planned=run.plan.pose,
+            executed=run.log.tool_pose[run.log.motion],
+            errors=curves,
+            title=f"{run.recording.source} ({run.recording.body}) on {run.log.arm.name}",
+            note=f"{'all checks held' if run.ok else 'checks failed'}; {run.slowdown:.2f} x the recorded duration; "
+            f"{run.log.simulator}, {run.log.mode}",
+        )

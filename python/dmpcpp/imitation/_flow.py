@@ -1,0 +1,269 @@
+"""The whole flow in one call: a recorded motion, placed, learned, solved, slowed to the limits and executed.
+
+>>> from dmpcpp import arms, imitation, recordings
+>>> run = imitation.imitate(recordings.clip("dance_b"), arms.find("panda"))   # doctest: +SKIP
+>>> run.ok, run.stages["ik_to_executed"].position_rmse                        # doctest: +SKIP
+
+Every stage is a value that can be looked at on its own; each step here is one call into the module that does it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp import metrics, motion, simulation
+from dmpcpp._core import (
+    Arm,
+    Derivatives,
+    InverseKinematics,
+    JointTrajectory,
+    PoseDmp,
+    PoseTrajectory,
+    duration_factor,
+    stretched,
+)
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.learning import learn, reproduction, reproduction_checks
+from dmpcpp.metrics import StageErrors
+from dmpcpp.motion import Noise
+from dmpcpp.planning import Placement
+from dmpcpp.planning import place as place_motion
+from dmpcpp.recordings import Recording
+from dmpcpp.robot import arms
+from dmpcpp.simulation import Check, Checked, ExecutionLog, Simulator
+
+__all__ = ["STAGES", "Imitation", "PlacementPolicy", "Progress", "clear_of_itself", "imitate"]
+
+Progress = Callable[[str, float], None]
+"""Called as progress(stage, share done): a name of STAGES and 0 to 1."""
+
+PlacementPolicy = Callable[..., Placement]
+"""Called as policy(recording, arm, accept=...): `retarget.place` is one, and `retarget.anchor_within_reach` with its
+anchor bound, `functools.partial(retarget.anchor_within_reach, at=(0.4, 0, 0.5), on="start")`.
+"""
+
+Engine = Callable[..., Simulator]
+
+STAGES = ("place", "learn", "solve", "execute")
+
+_SAMPLES_PER_KERNEL = 10
+_INSET = 2e-3  # rad or m, kept off the position limits where the path allows
+_RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
+
+
+@dataclass(frozen=True, eq=False)
+class Imitation(Checked):
+    """A motion from recording to execution.
+
+    Attributes
+    ----------
+    recording : Recording
+        As it stands in the robot's base frame; its history says what was done to it.
+    placement : Placement or None
+        None where the recording was taken as it was.
+    model : PoseDmp
+    slowdown : float
+        Duration of the executed motion over that of the recording.
+    plan : PoseTrajectory
+        The model's rollout, slowed down.
+    joints : JointTrajectory
+    log : ExecutionLog
+    stages : dict of str to StageErrors
+        "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
+    checks : tuple of Check
+    noise : Noise
+        What was found in the recording as it stands in the robot's base frame.
+    second_log : ExecutionLog or None
+        The same joints in the second engine, where both were asked for.
+    """
+
+    recording: Recording
+    placement: Placement | None
+    model: PoseDmp
+    slowdown: float
+    plan: PoseTrajectory
+    joints: JointTrajectory
+    log: ExecutionLog
+    stages: dict[str, StageErrors]
+    checks: tuple[Check, ...]
+    noise: Noise
+    second_log: ExecutionLog | None = None
+
+    def summary(self) -> dict[str, Any]:
+        """Return what `summary.json` holds; m and rad."""
+        return {
+            **self.judged(),
+            "stages": {name: errors.to_dict() for name, errors in self.stages.items()},
+            "arm": self.log.arm.name,
+            "recording": {
+                "source": self.recording.source,
+                "body": self.recording.body,
+                "samples": len(self.recording),
+                "duration": self.recording.duration,
+                "noise": {"position": self.noise.position, "angle": self.noise.angle},
+                "history": list(self.recording.history),
+            },
+            "basis_count": self.model.options.basis_count,
+            "duration": self.plan.time[-1],
+            "slowdown": self.slowdown,
+            "simulator": self.log.simulator,
+            "second_simulator": self.second_log.simulator if self.second_log else None,
+            "mode": self.log.mode,
+            "caveat": self.log.caveat,
+        }
+
+
+def imitate(
+    recording: Recording,
+    arm: Arm,
+    *,
+    seed: int = 0,
+    place: bool | PlacementPolicy = True,
+    scale: tuple[float, float] = (0.25, 1.0),
+    smooth: bool = True,
+    basis_count: int | None = None,
+    simulator: str = "bullet",
+    progress: Progress | None = None,
+) -> Imitation:
+    """Carry out a recorded motion on a simulated arm and say how well that went.
+
+    Parameters
+    ----------
+    recording : Recording
+    arm : Arm
+    seed : int
+        Of the search for a placement.
+    place : bool or PlacementPolicy
+        Search a placement of the motion in the arm's workspace (`retarget.place`), or by the policy given; if False
+        the recorded poses are taken as poses of the arm's tip in its base frame.
+    scale : (float, float)
+        Smallest and largest scale of positions that `retarget.place` may choose.
+    smooth : bool
+        Whether noise found in the recording may be smoothed out in learning; the recording's history tells.
+    basis_count : int, optional
+        Kernels of the model; by default as many as the motion needs.
+    simulator : {"bullet", "mujoco", "both"}
+        The physics engine. With both, Bullet is the one that everything is measured in, MuJoCo executes the
+        same joints, and checks say how far the two are apart.
+    progress : callable, optional
+        See `Progress`.
+
+    Raises
+    ------
+    InvalidArgument
+        The recording can not be learned or is no motion of a hand (`motion.plausible`), no placement carries it, or
+        there is no such simulator.
+    MissingDependency
+        The simulator is not installed.
+    """
+    tell = progress or (lambda stage, done: None)
+    engines = _engines(simulator)
+    tell("place", 0.0)
+    recording = motion.plausible(motion.continuous(recording))
+    if place is True:
+        place = partial(place_motion, seed=seed, scale=scale)
+    placement = place(recording, arm, accept=clear_of_itself(arm, engines[0])) if place else None
+    placed = placement.apply_to(recording) if placement else recording
+    tell("learn", 0.0)
+    demonstration, noise = motion.demonstration(placed), motion.noise(placed)
+    model = learn(demonstration, basis_count, noise=noise, smooth=smooth)
+    placed = _noted(placed, model, noise)
+    tell("solve", 0.0)
+    plan, joints, slowdown = _solve(model, arm, placement.start if placement else None, engines[0])
+    tell("execute", 0.0)
+    path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
+    logs = _execute(arm, joints, engines, lambda done: tell("execute", done))
+    log, second = logs[0], logs[1] if len(logs) > 1 else None
+    stages = {
+        "demonstration_to_dmp": reproduction(model, demonstration),
+        "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
+        "ik_to_executed": log.errors,
+    }
+    checks = (*reproduction_checks(stages["demonstration_to_dmp"], noise), *path_checks, *log.verdict.checks)
+    if second is not None:
+        checks = (*checks, *simulation.agreement(log, second))
+    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, noise, second)
+
+
+def _engines(simulator: str) -> tuple[Engine, ...]:
+    engines = simulation.ENGINES
+    if simulator == "both":
+        return tuple(engines.values())
+    if simulator not in engines:
+        raise InvalidArgument(f"simulator: '{simulator}', expected one of {', '.join(engines)}, both.")
+    return (engines[simulator],)
+
+
+def _execute(
+    arm: Arm, joints: JointTrajectory, engines: tuple[Engine, ...], tell: Callable[[float], None]
+) -> list[ExecutionLog]:
+    """Return the log of every engine; ``tell`` hears the share of all that is done."""
+
+    def run(k: int) -> ExecutionLog:
+        return simulation.execute(
+            arm, joints, simulator=engines[k], progress=lambda done, total: tell((k + done / total) / len(engines))
+        )
+
+    return [run(k) for k in range(len(engines))]
+
+
+def _noted(recording: Recording, model: PoseDmp, noise: Noise) -> Recording:
+    if model.options.derivatives != Derivatives.smooth:
+        return recording
+    return recording.with_(f"learned with its noise smoothed out: {noise.describe()} found, once placed")
+
+
+def clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
+    """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
+
+    def clear(joints: JointTrajectory) -> bool:
+        every = max(1, len(joints.time) // 100)
+        return not simulation.contacts_along(arm, joints.position[::every], simulator=engine)
+
+    return clear
+
+
+def _follow(path: PoseTrajectory, arm: Arm, start: NDArray[np.float64] | None) -> JointTrajectory:
+    """Return the joints along a path, off the limits if that can be: between samples a spline swings farther than they.
+
+    The placement's joints are a suggestion: where nothing leads on from them, the search is free.
+    """
+    for limited in (_inset(arm), arm):
+        solver = InverseKinematics(limited)
+        for begin in (None,) if start is None else (np.clip(start, limited.lower, limited.upper), None):
+            joints = solver.follow(path, start=begin)
+            if joints.report.complete:
+                return joints
+    return joints
+
+
+def _inset(arm: Arm) -> Arm:
+    span = arm.upper - arm.lower
+    room = np.where(np.isfinite(span), np.minimum(_INSET, 0.01 * span), 0.0)
+    return arm.with_limits(lower=arm.lower + room, upper=arm.upper - room)
+
+
+def _solve(
+    model: PoseDmp, arm: Arm, start: NDArray[np.float64] | None, engine: Engine
+) -> tuple[PoseTrajectory, JointTrajectory, float]:
+    """Return plan, joints and slowdown: the path as demonstrated, the duration as the joint limits ask for."""
+    samples = _SAMPLES_PER_KERNEL * max(model.options.basis_count, 100)
+    dt = model.duration / samples
+    joints = _follow(model.rollout(dt=dt), arm, start)
+    slowdown = max(
+        1.0,
+        _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)),
+    )
+    joints = stretched(joints, slowdown)
+    torque = simulation.torque_duration_factor(arm, joints, simulator=engine)
+    if 1.0 < torque < np.inf:
+        joints = stretched(joints, torque)
+        slowdown *= torque
+    plan = model.rollout(duration=slowdown * model.duration, dt=slowdown * dt)
+    return plan, joints, slowdown

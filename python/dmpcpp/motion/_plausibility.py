@@ -1,0 +1,95 @@
+"""Whether a recording can be the motion of a hand: it moves, and no faster than hands do."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings._recording import Array, Recording
+
+__all__ = ["implausible", "plausible"]
+
+_STILL_POSITION, _STILL_ANGLE = 1e-3, np.radians(0.5)  # m, rad; who moves less than both stands still
+_TURNS = np.radians(20.0)  # rad; a hand that turns so far moves, too
+_FASTEST = 30.0  # m/s; above what any hand does, far below cm or mm read as m
+_WINDOW = 0.05  # s; over less than that a glitch or noise passes for speed
+_NEIGHBOURS = 3  # samples whose median takes a single glitch out
+
+
+def plausible(recording: Recording) -> Recording:
+    """Return the recording if it can be the motion of a hand; its history warns of one that turns on the spot, as one
+    does whose lengths were read in too small a unit.
+
+    Raises
+    ------
+    InvalidArgument
+        Saying what `implausible` found and what to do.
+    """
+    if reason := implausible(recording):
+        source = f" in {recording.source}" if recording.source else ""
+        raise InvalidArgument(f"position: the body {recording.body!r}{source} {reason}")
+    extent, angle = _covered(recording, ~recording.missing)
+    if extent < _STILL_POSITION and angle > _TURNS:
+        return recording.with_(
+            f"WARNING: moves over {1e3 * extent:.2g} mm only and turns by {np.degrees(angle):.0f} deg: is the unit of "
+            "its lengths right?"
+        )
+    return recording
+
+
+def implausible(recording: Recording) -> str:
+    """Return why a recording can not be the motion of a hand, and what to do; "" of one that can.
+
+    It stands still: all of it lies in a box with a diagonal of less than 1 mm, turned by less than 0.5 deg from the
+    first sample. Or it is too fast: its path is longer than 30 m/s times a window of 0.05 s, or times all of a shorter
+    recording. A single sample that lies elsewhere does not count, and samples may be missing.
+    """
+    there = ~recording.missing
+    return _stillness(recording, there) or _haste(recording.time[there], recording.position[there])
+
+
+def _stillness(recording: Recording, there: NDArray[np.bool_]) -> str:
+    extent, angle = _covered(recording, there)
+    if extent >= _STILL_POSITION or angle >= _STILL_ANGLE:
+        return ""
+    return (
+        f"stands still: it moves over {1e3 * extent:.2g} mm and turns by {np.degrees(angle):.2g} deg in "
+        f"{recording.duration:.4g} s, expected at least {1e3 * _STILL_POSITION:g} mm or "
+        f"{np.degrees(_STILL_ANGLE):g} deg. Choose another body or another part of the recording, or state the unit of "
+        "its lengths."
+    )
+
+
+def _covered(recording: Recording, there: NDArray[np.bool_]) -> tuple[float, float]:
+    """Return the diagonal of the box that holds the positions [m] and the largest turn from the first sample [rad]."""
+    rotation = Rotation.from_matrix(recording.rotation[there])
+    extent = float(np.linalg.norm(np.ptp(recording.position[there], axis=0)))
+    return extent, float((rotation[0].inv() * rotation).magnitude().max())
+
+
+def _haste(time: Array, position: Array) -> str:
+    if len(time) < 2 * _NEIGHBOURS:
+        return ""  # too few samples to tell a glitch from speed; such a recording is refused elsewhere
+    calm = np.median(sliding_window_view(position, _NEIGHBOURS, axis=0), axis=-1)
+    time = time[_NEIGHBOURS // 2 : -(_NEIGHBOURS // 2)]
+    path = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(calm, axis=0), axis=1))))
+    begin, end = _windows(time)
+    pace = (path[end] - path[begin]) / (time[end] - time[begin])
+    k = int(np.argmax(pace))
+    if pace[k] <= _FASTEST:
+        return ""
+    return (
+        f"moves at {pace[k]:.3g} m/s from {time[begin[k]]:.4g} to {time[end[k]]:.4g} s, expected at most "
+        f"{_FASTEST:g} m/s: no hand moves so fast. State the unit of lengths (unit='cm', unit='mm'), the rate "
+        "(rate=...) or the unit of times (time_unit='ms') that the recording has, or crop a jump out."
+    )
+
+
+def _windows(time: Array) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
+    """Return first and last samples of the shortest windows that last long enough, or of all there is."""
+    end = np.searchsorted(time, time + _WINDOW * (1.0 - 1e-9))  # rounding must not cost a sample
+    begin = np.flatnonzero(end < len(time))
+    return (begin, end[begin]) if len(begin) else (np.array([0]), np.array([len(time) - 1]))

@@ -1,0 +1,100 @@
+"""From a recording as it was read to a motion to learn: the usual steps in their usual order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.motion._gaps import LONGEST_GAP, fill
+from dmpcpp.motion._outliers import outliers
+from dmpcpp.motion._segmentation import cycles, segments
+from dmpcpp.motion._smoothing import evenly_sampled, low_pass, smooth
+from dmpcpp.motion._timing import crop, resample
+from dmpcpp.recordings._recording import Recording
+
+__all__ = ["Preparation", "prepare"]
+
+_OUTLIER_WINDOW = 11  # samples; a shorter recording has no neighbours to ask
+
+
+@dataclass(frozen=True)
+class Preparation:
+    """What shall be done to a recording before it is learned.
+
+    Attributes
+    ----------
+    start, end : float
+        s; use the motion from here to there.
+    longest_gap : float
+        s; longer gaps are refused, others filled.
+    outliers : bool
+        Whether samples that lie far from where their neighbours say they should are replaced.
+    segment : int, optional
+        Use this part of the motion only, counted from 1, of those between its rests (`motion.segments`).
+    repetition : int, optional
+        Likewise of its whole cycles (`motion.cycles`).
+    resample : float, optional
+        Hz; samples at an even rate.
+    low_pass : float, optional
+        Hz; take out what is faster. A recording with uneven steps is resampled at its own mean rate for it.
+    smooth : bool
+        Take out the noise that is found.
+    """
+
+    start: float = 0.0
+    end: float | None = None
+    longest_gap: float = LONGEST_GAP
+    outliers: bool = True
+    segment: int | None = None
+    repetition: int | None = None
+    resample: float | None = None
+    low_pass: float | None = None
+    smooth: bool = False
+
+
+def prepare(recording: Recording, how: Preparation | None = None) -> Recording:
+    """Crop, take outliers out, fill gaps, choose a part, resample, low-pass and smooth, in this order.
+
+    Each step is the function of its name in `dmpcpp.motion`; the history tells what each did. By default outliers
+    and short gaps are mended and nothing else changes.
+
+    Raises
+    ------
+    InvalidArgument
+        What the steps refuse; a part that is not there; a segment and a repetition at once.
+    """
+    how = how or Preparation()
+    if how.start or how.end is not None:
+        recording = crop(recording, how.start, how.end)
+    recording = _mended(recording, how)
+    recording = _part(recording, how)
+    if how.resample is not None:
+        recording = resample(recording, how.resample)
+    if how.low_pass is not None:
+        recording = recording if evenly_sampled(recording) else resample(recording, recording.rate)
+        recording = low_pass(recording, how.low_pass)
+    return smooth(recording) if how.smooth else recording
+
+
+def _mended(recording: Recording, how: Preparation) -> Recording:
+    filled = fill(recording, how.longest_gap)
+    if not how.outliers or len(filled) < _OUTLIER_WINDOW:
+        return filled
+    return fill(outliers(filled), longest=filled.duration)  # all gaps that are left are a few samples long
+
+
+def _part(recording: Recording, how: Preparation) -> Recording:
+    if how.segment is not None and how.repetition is not None:
+        raise InvalidArgument("segment, repetition: both are stated, expected one of them at most.")
+    if how.segment is not None:
+        return _chosen("segment", how.segment, segments(recording))
+    if how.repetition is not None:
+        return _chosen("repetition", how.repetition, cycles(recording))
+    return recording
+
+
+def _chosen(name: str, number: int, parts: list[Recording]) -> Recording:
+    if not 1 <= number <= len(parts):
+        found = f"1 to {len(parts)}" if parts else "none: there is not one in this recording"
+        raise InvalidArgument(f"{name}: {number}, expected {found}.")
+    return parts[number - 1]

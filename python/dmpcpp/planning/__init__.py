@@ -1,0 +1,27 @@
+"""From a motion to joints: where it is placed before the arm, and what the arm would do with a learned model.
+
+A recorded motion is placed by one similarity transform (`place`, `anchor`); `plan` leads a model to a goal in a time.
+
+>>> from dmpcpp import arms, planning
+>>> found = planning.plan(model, arms.find("panda"), duration=4.0)        # doctest: +SKIP
+>>> found.ok, found.joints.position.shape                                 # doctest: +SKIP
+"""
+
+from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
+from dmpcpp.planning._following import Accept
+from dmpcpp.planning._placement import Placement
+from dmpcpp.planning._plan import JointPlan, plan, write
+from dmpcpp.planning._search import place
+
+__all__ = [
+    "Accept",
+    "JointPlan",
+    "Placement",
+    "Reach",
+    "anchor",
+    "anchor_within_reach",
+    "place",
+    "plan",
+    "reach",
+    "write",
+]

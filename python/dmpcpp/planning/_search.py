@@ -1,0 +1,295 @@
+"""The search for a placement with which an arm can carry out a whole motion, within its joint limits.
+
+Of random placements only a few in a hundred carry a motion of a whole arm. So each candidate starts from a
+random configuration of the robot, which shall hold the middle pose of the motion; what the robot can not
+reach anyway is dropped by a look at the positions its tip can take; then single poses are solved, those far
+apart first; and only what is left is followed from the first pose to the last. The best of these is
+improved by small changes, each judged by one pass along the path from the joints at its first pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+
+import numpy as np
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from dmpcpp import motion
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, duration_factor
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._following import EFFORT, Accept, to_follow
+from dmpcpp.planning._placement import Placement
+from dmpcpp.recordings._recording import Array, Axis, Recording
+from dmpcpp.robot import arms
+
+__all__ = ["place"]
+
+_CLOUD = 20_000  # random configurations whose tip positions tell where the arm reaches
+_COARSE = 24  # poses that stand for the motion in the first tests
+_FOLLOWED = 300  # candidates that are followed from end to end at most
+_ENOUGH = 8  # of them carried; no further ones are followed
+_MORE = 10  # times as many candidates, if none of the first is carried
+_IMPROVEMENTS = 300  # small changes tried on the best one; fewer on a long path:
+_IMPROVING_POSES = 100_000  # that are followed meanwhile, about
+_FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
+
+
+def place(
+    recording: Recording,
+    arm: Arm,
+    seed: int = 0,
+    *,
+    scale: tuple[float, float] = (0.25, 1.0),
+    floor: float = 0.15,
+    candidates: int = 3000,
+    accept: Accept | None = None,
+) -> Placement:
+    """Search a placement of the whole motion in an arm's workspace; the same seed gives the same placement.
+
+    Parameters
+    ----------
+    recording : Recording
+        Its up axis stays up; where it has none, z is taken and the placement's note says so.
+    arm : Arm
+        Mounted upright: z of its base points up.
+    seed : int
+        Of the random candidates.
+    scale : (float, float)
+        Smallest and largest scale of positions. Larger ones are preferred, as far as the joints keep away
+        from their limits and need not be slowed down out of proportion.
+    floor : float
+        m, the lowest height of the tip above the base; leave room for what the tip carries.
+    candidates : int
+        How many random placements are tried; ten times as many if none of them carries the motion.
+    accept : JointTrajectory -> bool, optional
+        A last word on joints that carry the whole motion, for what kinematics does not see: an arm that
+        touches itself, for instance.
+
+    Returns
+    -------
+    Placement
+        Every sample of the motion is met by inverse kinematics on one continuous path of the joints.
+
+    Raises
+    ------
+    InvalidArgument
+        A range of scale that is empty; or no candidate carries the whole motion: the message says how much
+        of it the best one carries.
+    """
+    if not 0.0 < scale[0] <= scale[1] < np.inf:
+        raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
+    if candidates < 1:
+        raise InvalidArgument(f"candidates: {candidates}, expected at least 1.")
+    search = _Search(recording, arm, floor, accept)
+    random = np.random.default_rng(seed)
+    found = search.carried(search.promising(random, scale, candidates))
+    if not found:
+        found = search.carried(search.promising(random, scale, _MORE * candidates))
+    if not found:
+        raise InvalidArgument(
+            f"recording: no placement found with which arm {arm.name!r} carries the whole motion; "
+            f"{search.shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
+        )
+    best = search.improved(max(found, key=lambda carried: carried.worth), random, scale)
+    followed = "" if len(search.time) >= len(recording) else f" (followed at {len(search.time)})"
+    note = f"carries all {len(recording)} samples{followed}, {best.summary} ({candidates} candidates, seed {seed})"
+    if recording.up_axis is None:
+        note += "; up axis not stated: z taken"
+    return replace(best.placement, note=note)
+
+
+@dataclass(frozen=True)
+class _Carried:
+    """A placement with its start joints that the arm carries from the first pose to the last, and how."""
+
+    placement: Placement
+    limit_margin: float  # rad, smallest distance from a joint limit
+    slowdown: float  # factor on the duration that the limits of joint velocity and acceleration ask for
+
+    @property
+    def worth(self) -> float:
+        """Larger is better: size, damped by joints close to their limits and by the time it takes."""
+        margin = min(1.0, 0.05 + self.limit_margin / _FULL_MARGIN)
+        return self.placement.scale * margin / np.sqrt(max(1.0, self.slowdown))
+
+    @property
+    def summary(self) -> str:
+        return (
+            f"joints at least {np.degrees(self.limit_margin):.1f} deg within their limits, "
+            f"{self.slowdown:.2f} x the recorded duration by their velocity and acceleration limits"
+        )
+
+
+class _Search:
+    """One motion and one arm, and the placements found so far."""
+
+    def __init__(self, recording: Recording, arm: Arm, floor: float, accept: Accept | None) -> None:
+        self.recorded = recording.time
+        recording = to_follow(recording)
+        self.time = recording.time
+        self.poses = motion.poses(recording)
+        self.up_axis: Axis = recording.up_axis or "z"
+        self.centre = (recording.position.min(axis=0) + recording.position.max(axis=0)) / 2
+        self.coarse = _far_apart(recording, _middle(recording, self.centre), _COARSE)
+        self.arm = arm
+        self.floor = floor
+        self.accept = accept
+        self.solver = InverseKinematics(arm)
+        # Poses out of reach would spend all of the default's iterations, and most candidates have some.
+        self.quick_solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
+        self.closest: Placement | None = None  # by a look at its positions
+        self.most_carried = 0.0
+        self.first_miss = ""  # of the placement that carries most
+
+    def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
+        """Return the largest candidates of which every coarse pose can be solved, the largest first."""
+        joints = _random_joints(self.arm, random, _CLOUD)
+        reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
+        # Twice the usual distance between neighbours in the cloud: closer than that, the arm reaches.
+        near = 2.0 * float(np.median(reached.query(reached.data[:500], k=2)[0][:, 1]))
+        candidates = list(self._candidates(random, scale, count))
+        shares = [self._share_near(placement, reached, near) for placement in candidates]
+        self.closest = candidates[int(np.argmax(shares))]
+        within = [placement for placement, share in zip(candidates, shares, strict=True) if share == 1.0]
+        within.sort(key=lambda placement: -placement.scale)
+        able = (placement for placement in within if self._above_floor(placement) and self._solves(placement))
+        return list(islice(able, _FOLLOWED))
+
+    def carried(self, promising: list[Placement]) -> list[_Carried]:
+        """Follow one after the other until enough are carried from end to end and accepted."""
+        found: list[_Carried] = []
+        for placement in promising:
+            start = self._start(placement)
+            carried = self._carry(placement, start) if start is not None else None
+            found += [carried] if carried else []
+            if len(found) == _ENOUGH:
+                break
+        return found
+
+    def improved(self, best: _Carried, random: np.random.Generator, scale: tuple[float, float]) -> _Carried:
+        """Return the best after small random changes, growing smaller."""
+        for step in np.geomspace(1.0, 0.1, min(_IMPROVEMENTS, 1 + _IMPROVING_POSES // len(self.poses))):
+            placement = _changed(best.placement, random, step, scale)
+            nearby = placement.start + random.normal(0.0, 0.2 * step, self.arm.joint_count)
+            held = self.solver.solve(placement.apply(self.poses[0]), nearby)
+            if held.ok and self._above_floor(placement):
+                best = self._carry(placement, held.joints, better_than=best.worth) or best
+        return best
+
+    def shortfall(self) -> str:
+        """Return what the best placement lacks, for an error."""
+        if self.most_carried == 1.0:
+            return "what the joints could follow was not accepted"
+        if self.closest is not None:
+            self._start(self.closest)
+        return f"the best one carries {100 * self.most_carried:.0f} % of it{self.first_miss}"
+
+    def _candidates(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> Iterator[Placement]:
+        """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
+        middle = self.poses[self.coarse[0]]
+        held = self.arm.forward_kinematics(_random_joints(self.arm, random, count))
+        yaws = random.uniform(-np.pi, np.pi, count)
+        scales = random.uniform(*scale, count)
+        for pose, yaw, size in zip(held, yaws, scales, strict=True):
+            free = Placement(np.zeros(3), yaw, size, up_axis=self.up_axis, centre=self.centre)
+            unplaced = free.apply(middle)
+            yield replace(
+                free,
+                position=pose[:3, 3] - unplaced[:3, 3],
+                tool_rotation=_proper(unplaced[:3, :3].T @ pose[:3, :3]),
+            )
+
+    def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
+        """Return the share of the coarse positions that the tip can take, a little less if one is too low."""
+        position = placement.apply(self.poses[self.coarse])[:, :3, 3]
+        share = float(np.mean(reached.query(position)[0] < near))
+        return share if position[:, 2].min() >= self.floor else 0.9 * share
+
+    def _above_floor(self, placement: Placement) -> bool:
+        return bool(placement.apply(self.poses)[:, 2, 3].min() >= self.floor)
+
+    def _solves(self, placement: Placement) -> bool:
+        """Whether each coarse pose can be solved by itself; gives up at the first third with a failure."""
+        thirds = np.array_split(placement.apply(self.poses[self.coarse]), 3)
+        return all(self.quick_solver.solve_many(third).solved == len(third) for third in thirds)
+
+    def _start(self, placement: Placement) -> Array | None:
+        """Search joints at the first pose from which the whole path can be followed."""
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **EFFORT)
+        share = joints.report.solved / len(self.time)
+        if share > self.most_carried:
+            self.most_carried = share
+            self.first_miss = self._first_miss(joints)
+        return joints.position[0] if joints.report.complete else None
+
+    def _first_miss(self, joints: JointTrajectory) -> str:
+        """Return where and by how much the first pose is missed, for an error."""
+        report = joints.report
+        if report.complete:
+            return ""
+        k = report.missed[0][0]
+        frame = int(np.searchsorted(self.recorded, self.time[k], side="right")) - 1
+        return (
+            f" and first misses the pose at frame {frame} ({self.time[k]:.4g} s), by "
+            f"{1e3 * report.position_error[k]:.3g} mm and {np.degrees(report.angle_error[k]):.3g} deg"
+        )
+
+    def _carry(self, placement: Placement, start: Array, better_than: float = 0.0) -> _Carried | None:
+        """Follow the path from `start`; None unless it is carried, worth more than that, and accepted."""
+        joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start, thorough=False)
+        report = joints.report
+        placement = replace(placement, start=start)
+        slowdown = duration_factor(joints, self.arm.velocity_limit, arms.acceleration_limit(self.arm))
+        carried = _Carried(placement, report.limit_margin, slowdown)
+        if not report.complete or carried.worth <= better_than:
+            return None
+        return carried if self.accept is None or self.accept(joints) else None
+
+
+def _random_joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
+    """Return joints (count, n) drawn evenly from the ranges; from one turn for a joint without limits."""
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
+    return random.uniform(lower, upper, (count, len(lower)))
+
+
+def _middle(recording: Recording, centre: Array) -> int:
+    """Return the sample closest to the middle of the path."""
+    return int(np.argmin(np.linalg.norm(recording.position - centre, axis=1)))
+
+
+def _far_apart(recording: Recording, first: int, count: int) -> list[int]:
+    """Return samples each as far as can be from those before it: the extremes of the motion come first.
+
+    Distance counts 1 rad as 0.2 m, about what a wrist needs of a hand's reach.
+    """
+    orientation = Rotation.from_matrix(recording.rotation)
+    chosen = [first]
+    nearest = np.full(len(recording), np.inf)
+    while len(chosen) < min(count, len(recording)):
+        last = chosen[-1]
+        moved = np.linalg.norm(recording.position - recording.position[last], axis=1)
+        turned = (orientation[last].inv() * orientation).magnitude()
+        nearest = np.minimum(nearest, moved + 0.2 * turned)
+        chosen.append(int(np.argmax(nearest)))
+    return chosen
+
+
+def _changed(placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]) -> Placement:
+    """Return a neighbour: up to about 5 cm, 10 deg and 10 % away for a step of 1."""
+    turn = Rotation.from_rotvec(random.normal(0.0, 0.15 * step, 3)).as_matrix()
+    return replace(
+        placement,
+        position=placement.position + random.normal(0.0, 0.04 * step, 3),
+        yaw=float(np.remainder(placement.yaw + random.normal(0.0, 0.15 * step) + np.pi, 2 * np.pi) - np.pi),
+        scale=float(np.clip(placement.scale * np.exp(random.normal(0.02, 0.1 * step)), *scale)),
+        tool_rotation=_proper(placement.tool_rotation @ turn),
+    )
+
+
+def _proper(rotation: Array) -> Array:
+    """Return the rotation with the rounding of products taken out."""
+    return Rotation.from_matrix(rotation).as_matrix()

@@ -1,0 +1,124 @@
+"""Project Aria machine perception CSV: hand tracking in the frame of the glasses, or the glasses' own trajectory.
+
+Source: Project Aria documentation, "MPS output: hand tracking" and "trajectory". Columns `tx_left_device_wrist` ..
+`qw_left_device_wrist` are a pose (us, m, quaternions whose names tell their order), `tx_left_landmark_0_device` .. a
+point; a confidence below 0 marks a hand that was not seen.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from dmpcpp._text import data_lines, read_text
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings._cells import Cells, split_all
+from dmpcpp.recordings._markers import Markers
+from dmpcpp.recordings._orientation import from_quaternions
+from dmpcpp.recordings._reader import COMMON, Reader, pick_body
+from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings._statement import Stated
+from dmpcpp.recordings._world import World
+from numpy.typing import NDArray
+
+__all__ = ["READER"]
+
+_TIME = "tracking_timestamp_us"
+_WORLD = World(unit="m", time_unit="us")
+_POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
+_POINT = ("tx", "ty", "tz")
+_COLUMN = re.compile(r"(?P<what>t[xyz]|q[xyzw])_(?P<of>\w+)")
+_NAMES = {"left_device_wrist": "left_wrist", "right_device_wrist": "right_wrist", "world_device": "device"}
+
+
+@dataclass(frozen=True)
+class _File:
+    """The data and the columns: what (`left_device_wrist`) -> quantity (`tx`) -> column."""
+
+    cells: Cells
+    header: list[str]
+    things: dict[str, dict[str, int]]
+
+    def holding(self, wanted: tuple[str, ...]) -> dict[str, dict[str, int]]:
+        """Return the columns of what has all of some quantities, by the name that users see."""
+        whole = {of: where for of, where in self.things.items() if all(what in where for what in wanted)}
+        return {_NAMES.get(of, of.removesuffix("_device")): where for of, where in whole.items()}
+
+    def times(self) -> Array:
+        return self.cells.numbers([self.header.index(_TIME)], [_TIME])[:, 0]
+
+    def unseen(self, name: str) -> NDArray[np.bool_]:
+        """Return in which samples (T,) the hand that a body or point belongs to was not seen."""
+        confidence = f"{name.split('_')[0]}_tracking_confidence"
+        if confidence not in self.header:
+            return np.zeros(len(self.cells.rows), dtype=bool)
+        return np.asarray(self.cells.numbers([self.header.index(confidence)], [confidence])[:, 0] < 0.0)
+
+
+def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
+    """Return the wrists, or "device"."""
+    return tuple(_read(path).holding(_POSE))
+
+
+def read(path: Path, body: str | None, stated: Stated) -> Recording:
+    """Return a wrist in the frame of the glasses, or the glasses in the world."""
+    file = _read(path)
+    held = file.holding(_POSE)
+    body = pick_body(body, tuple(held))
+    values = file.cells.numbers([held[body][what] for what in _POSE], [f"{what} of {body!r}" for what in _POSE])
+    lost = file.unseen(body)
+    rotation, notes = from_quaternions(values[:, 3:], "xyzw", missing=lost)
+    if body != "device":
+        notes = ["in the frame of the glasses, which moves with the head", *notes]
+    return stated.recording(
+        time=file.times(),
+        position=np.where(lost[:, None], np.nan, values[:, :3]),
+        rotation=rotation,
+        body=body,
+        source=path.name,
+        notes=notes,
+        world=_WORLD,
+    )
+
+
+def markers(path: Path, stated: Stated) -> Markers:
+    """Return the landmarks of the hands."""
+    file = _read(path)
+    held = {name: where for name, where in file.holding(_POINT).items() if "landmark" in name}
+    if not held:
+        raise InvalidArgument("markers: the file holds no landmarks.")
+    columns = [where[what] for where in held.values() for what in _POINT]
+    called = [f"{what} of {name!r}" for name in held for what in _POINT]
+    points = file.cells.numbers(columns, called).reshape(len(file.cells.rows), len(held), 3)
+    points[np.array([file.unseen(name) for name in held]).T] = np.nan
+    return stated.marker_set(
+        time=file.times(), position=points, names=tuple(held), source=path.name, notes=[], world=_WORLD
+    )
+
+
+def _read(path: Path) -> _File:
+    rows = split_all(data_lines(read_text(path)), ",")
+    if len(rows) < 2:
+        raise InvalidArgument("a header line without lines of data.")
+    header = [cell.strip() for cell in rows[0][1]]
+    if _TIME not in header:
+        raise InvalidArgument(f"line {rows[0][0]}: no column {_TIME!r}.")
+    things: dict[str, dict[str, int]] = {}
+    for column, name in enumerate(header):
+        match = _COLUMN.fullmatch(name)
+        if match:
+            things.setdefault(match["of"], {}).setdefault(match["what"], column)
+    return _File(Cells(rows[1:]), header, things)
+
+
+READER = Reader(
+    name="aria",
+    summary="a Project Aria CSV of hands or of the glasses' trajectory",
+    takes=COMMON,
+    recognises=lambda path, head: _TIME.encode() in head.split(b"\n", 1)[0],
+    bodies=bodies,
+    read=read,
+    markers=markers,
+)

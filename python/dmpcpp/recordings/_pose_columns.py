@@ -1,0 +1,147 @@
+"""A body's pose out of the columns of a table: a position, and a quaternion or three angles about the axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings._cells import Cells
+from dmpcpp.recordings._orientation import HELD_FIXED, REFUSE_ABOVE, from_euler, from_quaternions, held_fixed, no_turn
+from dmpcpp.recordings._recording import Array
+from dmpcpp.recordings._statement import Stated
+
+__all__ = ["ANGLES", "POSITION", "QUATERNION", "pose", "stated_columns"]
+
+POSITION = ("x", "y", "z")
+QUATERNION = ("qx", "qy", "qz", "qw")
+ANGLES = ("rx", "ry", "rz")
+
+
+_LEAST_MARK = 999.0  # of numbers that are written in place of a sample: -999, 9999, -9999, ..
+_JUMP = 3.0  # times the largest other step: nobody starts or stops that suddenly at the very origin
+_ADVICE = " If this marks a lost sample, state missing='{}'."
+
+
+def pose(
+    cells: Cells, where: Mapping[str, int], called: Callable[[int], str], stated: Stated
+) -> tuple[Array, Array, list[str]]:
+    """Return position (T, 3), rotation (T, 3, 3) and what was mended; NaN where the sample was lost.
+
+    Parameters
+    ----------
+    cells : Cells
+    where : mapping
+        From the names of `POSITION` and of `QUATERNION`, `ANGLES` or neither to columns.
+    called : (column) -> str
+        How messages call a column.
+    stated : Stated
+        `missing`, `euler_order`, `angle_unit` and `fixed_orientation` count here.
+
+    Raises
+    ------
+    InvalidArgument
+        Naming line and column, or what must be stated (`NotStated`).
+    """
+    fixed = "qx" not in where and "rx" not in where
+    names = (*POSITION, *(() if fixed else QUATERNION if "qx" in where else ANGLES))
+    columns = [where[name] for name in names]
+    values = _marking(cells, stated.missing).numbers(columns, [called(column) for column in columns])
+    lost = np.isnan(values).any(axis=1) | _marked(values[:, :3], stated.missing)
+    if stated.missing is None:
+        _check_marks(cells, values, lost)
+        _check_zeros(cells, values[:, :3], lost)
+    values[lost] = np.nan
+    rotation, notes = _turned(values[:, 3:], lost, stated)
+    return values[:, :3], rotation, notes
+
+
+def _turned(values: Array, lost: NDArray[np.bool_], stated: Stated) -> tuple[Array, list[str]]:
+    """Return the rotations (T, 3, 3) of quaternions, angles or no columns (T, 4, 3 or 0), and what was mended."""
+    if values.shape[1] == len(QUATERNION):
+        return from_quaternions(values, "xyzw", missing=lost)
+    if values.shape[1] == len(ANGLES):
+        return from_euler(values, stated.euler_order, stated.angle_unit, lost), []
+    return held_fixed(lost), [HELD_FIXED]
+
+
+def _marking(cells: Cells, missing: object) -> Cells:
+    """Return the cells with what was stated to stand for a lost sample."""
+    if missing is None:
+        return replace(cells, advice=_ADVICE)
+    word = missing.strip().lower() if isinstance(missing, str) else ""
+    return replace(
+        cells,
+        blank=cells.blank or word == "empty",
+        nan=cells.nan or word == "nan",
+        mark=word if word not in ("", "empty", "nan") else "",
+    )
+
+
+def stated_columns(columns: object, place: Callable[[object], int], position_only: bool = False) -> dict[str, int]:
+    """Return the columns that the caller stated, "time" among them if it was, by what they hold.
+
+    Raises
+    ------
+    InvalidArgument
+        Names that are missing or unknown, or whatever `place` refuses; `NotStated` of a position without an
+        orientation, unless it is enough.
+    """
+    if not isinstance(columns, Mapping):
+        raise InvalidArgument(f"columns: {columns!r}, expected a mapping from time, x, y, z, qx, .. to columns.")
+    names = (*POSITION, *_turn_names(columns, position_only))
+    unknown = set(map(str, columns)) - {"time", *names}
+    missing = [name for name in names if name not in columns]
+    if unknown or missing:
+        wrong = f"unknown {', '.join(map(repr, sorted(unknown)))}" if unknown else f"missing {', '.join(missing)}"
+        raise InvalidArgument(f"columns: {wrong}; expected time, {', '.join(names)}.")
+    return {str(name): place(column) for name, column in columns.items()}
+
+
+def _turn_names(columns: Mapping[object, object], position_only: bool) -> tuple[str, ...]:
+    """Return the names of the orientation's columns that are to be there beside a position's."""
+    if set(columns) - {"time"} == set(POSITION):
+        if not position_only:
+            raise no_turn("the columns stated")
+        return ()
+    return ANGLES if any(name in columns for name in ANGLES) else QUATERNION
+
+
+def _marked(position: Array, missing: object) -> NDArray[np.bool_]:
+    """Return which rows (T,) hold the number that stands for a lost sample, in all three coordinates."""
+    if missing is None or (isinstance(missing, str) and missing.strip()):
+        return np.zeros(len(position), dtype=bool)
+    if isinstance(missing, bool) or not isinstance(missing, int | float) or not np.isfinite(missing):
+        raise InvalidArgument(f"missing: {missing!r}, expected 'empty', 'nan', another word, or a number such as 0.")
+    return np.asarray((position == missing).all(axis=1))
+
+
+def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_]) -> None:
+    """Refuse a number that stands in all of a pose and can not: the mark of a lost sample that was not stated."""
+    mark = values[:, 0]
+    with_quaternion = values.shape[1] == len(POSITION) + len(QUATERNION)
+    impossible = np.abs(2.0 * np.abs(mark) - 1.0) > REFUSE_ABOVE if with_quaternion else np.abs(mark) >= _LEAST_MARK
+    found = ~lost & impossible & (values == mark[:, None]).all(axis=1)
+    if found.any():
+        k = int(np.argmax(found))
+        raise InvalidArgument(
+            f"line {cells.rows[k][0]}: {mark[k]:.12g} in every column of the pose. If this marks a lost sample, state "
+            f"missing={mark[k]:.12g}."
+        )
+
+
+def _check_zeros(cells: Cells, position: Array, lost: NDArray[np.bool_]) -> None:
+    """Refuse a jump to the very origin and back, which some systems write for a body that they do not see."""
+    zero = (position == 0.0).all(axis=1)
+    steps = np.linalg.norm(np.diff(position, axis=0), axis=1)
+    jumps = (zero[1:] != zero[:-1]) & ~lost[1:] & ~lost[:-1]
+    within = steps[~zero[1:] & ~zero[:-1] & ~lost[1:] & ~lost[:-1]]
+    if jumps.any() and len(within) and steps[jumps].min() > _JUMP * within.max():
+        k = int(np.argmax(zero))
+        raise InvalidArgument(
+            f"line {cells.rows[k][0]}: x, y and z are 0, more than {_JUMP:g} times further off than any other step. "
+            "If this marks a lost sample, state missing=0; if not, missing='nan'."
+        )

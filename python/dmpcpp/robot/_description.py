@@ -1,0 +1,275 @@
+"""The URDF as a physics engine needs it: meshes found and convex, inertias that a rigid body can have.
+
+The same text goes to every engine, so that none repairs (or silently drops) anything in its own way.
+"""
+
+from __future__ import annotations
+
+import copy
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from itertools import combinations, product
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp._core import Arm
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot._convex_pieces import convex_pieces
+from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.robot._urdf_changes import add_payload, freeze, normalize_axes, scale_masses
+
+_WITH_MOTORS = ("revolute", "continuous", "prismatic")
+"""Joints that a motor can hold; no engine here moves a planar one, and a floating one would fall off."""
+_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+@dataclass(frozen=True)
+class RobotDescription:
+    """A URDF prepared for an engine.
+
+    Attributes
+    ----------
+    text : str
+        The URDF.
+    repaired_links : tuple of str
+        Links whose inertia was not physical and was replaced by the nearest one that is.
+    rigid_groups : tuple of frozenset of str
+        The links of the robot, grouped: the links of a group never move against one another.
+    neighbours : frozenset of frozenset of str
+        Pairs of links whose groups are joined by one moving joint: their meshes overlap by construction.
+    """
+
+    text: str
+    repaired_links: tuple[str, ...]
+    rigid_groups: tuple[frozenset[str], ...]
+    neighbours: frozenset[frozenset[str]]
+
+
+def describe(
+    arm: Arm,
+    folder: Path,
+    *,
+    visuals: bool = False,
+    disturbance: Disturbance | None = None,
+    only_the_arm_moves: bool = False,
+) -> RobotDescription:
+    """Prepare ``arm.urdf`` for a physics engine.
+
+    The URDF's Coulomb friction (xarm6 states 1 Nm for every joint) is left out: no controller here
+    compensates for it. State one in the disturbance instead.
+
+    Parameters
+    ----------
+    arm : Arm
+    folder : Path
+        Where the convex pieces of the collision meshes are written; the engine needs them while it loads.
+    visuals : bool
+        Keep what is only drawn; without it loading is several times faster.
+    disturbance : Disturbance, optional
+        Its masses and its payload are put in.
+    only_the_arm_moves : bool
+        Fix every other joint (fingers) in the middle of its range. Planar and floating ones are always fixed.
+
+    Raises
+    ------
+    InvalidArgument
+        A mesh can not be found, a mass is negative, an inertia is not made of finite numbers, nothing beyond a
+        joint has a mass, or a joint of the arm follows another.
+    """
+    robot = ET.fromstring(arm.urdf)
+    _refuse_folded_joints(robot, arm)
+    normalize_axes(robot)
+    links = robot.findall("link")
+    for link in links:
+        _prepare_shapes(link, arm.folder, folder, visuals)
+    repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
+    _change(robot, arm, disturbance or Disturbance())
+    _refuse_massless(robot, arm)
+    freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
+    groups = _rigid_groups(robot)
+    return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
+
+
+def links_of(arm: Arm) -> frozenset[str]:
+    """Names of all links of the robot that the arm is a part of."""
+    return frozenset(link.get("name", "") for link in ET.fromstring(arm.urdf).findall("link"))
+
+
+def _change(robot: ET.Element, arm: Arm, disturbance: Disturbance) -> None:
+    for dynamics in robot.iterfind("joint/dynamics"):
+        dynamics.attrib.pop("friction", None)
+    if disturbance.mass_error:
+        scale_masses(robot, disturbance.mass_factors(link.get("name", "") for link in robot.findall("link")))
+    if disturbance.payload:
+        add_payload(robot, arm.tip, disturbance.payload, disturbance.payload_offset)
+
+
+def _refuse_folded_joints(robot: ET.Element, arm: Arm) -> None:
+    """A mimic joint between base and tip moves with its master in ``Arm``, but would be held by the engines."""
+    above = {_ends(joint)[1]: joint for joint in robot.findall("joint")}
+    link = arm.tip
+    while link != arm.base and link in above:
+        joint = above[link]
+        if joint.get("type") != "fixed" and joint.get("name") not in arm.joint_names:
+            raise InvalidArgument(
+                f"arm: joint '{joint.get('name')}' between '{arm.base}' and '{arm.tip}' mimics another; the physics "
+                "engines can not couple them. Choose a base and a tip without it."
+            )
+        link = _ends(joint)[0]
+
+
+def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:
+    """Whether a rigid body can have this inertia (3, 3) [kg m^2] about its centre of mass.
+
+    It can when the inertia is positive definite and its principal moments hold the triangle inequality
+    a + b >= c: when the second moment of mass ``tr(I)/2 1 - I`` has no negative eigenvalue (Wensing, Kim and
+    Slotine, "Linear Matrix Inequalities for Physically-Consistent Inertial Parameter Identification", RA-L
+    2018).
+    """
+    scale = float(np.trace(inertia))
+    if not scale > 0.0:
+        return False
+    moments = np.linalg.eigvalsh(inertia)
+    return bool(moments[0] > 0.0 and np.linalg.eigvalsh(_second_moment(inertia))[0] >= -tolerance * scale)
+
+
+def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The physical inertia (3, 3) nearest to ``inertia``: its second moment without negative eigenvalues.
+
+    Nearest in the Frobenius norm of the second moment. A floor of 1e-4 of the largest eigenvalue keeps the
+    result off the edge, where engines differ in what they accept.
+    """
+    values, vectors = np.linalg.eigh(_second_moment(0.5 * (inertia + inertia.T)))
+    values = np.maximum(values, 1e-4 * max(values[-1], 1e-9))
+    second_moment = vectors @ np.diag(values) @ vectors.T
+    return np.asarray(np.trace(second_moment) * np.eye(3) - second_moment)
+
+
+def _second_moment(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(0.5 * np.trace(inertia) * np.eye(3) - inertia)
+
+
+def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool) -> None:
+    """Find the meshes, and make those that collide convex."""
+    for visual in [] if visuals else link.findall("visual"):
+        link.remove(visual)
+    for mesh in link.iter("mesh"):
+        mesh.set("filename", str(find_mesh(mesh.get("filename", ""), urdf_folder, link.get("name", ""))))
+    for collision in link.findall("collision"):
+        _split_into_convex_pieces(link, collision, folder)
+
+
+def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: Path) -> None:
+    mesh = collision.find("geometry/mesh")
+    pieces = convex_pieces(Path(mesh.get("filename", ""))) if mesh is not None else None
+    if pieces is None:
+        return
+    link.remove(collision)
+    for piece in pieces:
+        path = folder / f"piece{len(list(folder.iterdir()))}.obj"
+        path.write_text(piece, encoding="ascii")
+        part = copy.deepcopy(collision)
+        part.find("geometry/mesh").set("filename", str(path))  # type: ignore[union-attr]
+        link.append(part)
+
+
+def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
+    """What has no mass beyond a joint has no motion that physics could tell; the last joint has the least beyond it."""
+    last = arm.joint_names[-1]
+    beyond = {_ends(joint)[1] for joint in robot.findall("joint") if joint.get("name") == last}
+    for _ in robot.findall("link"):
+        beyond |= {_ends(joint)[1] for joint in robot.findall("joint") if _ends(joint)[0] in beyond}
+    masses = [mass for link in robot.findall("link") if link.get("name") in beyond for mass in link.iter("mass")]
+    if not any(float(mass.get("value", 0.0)) > 0.0 for mass in masses):
+        raise InvalidArgument(
+            f"arm.urdf: no link beyond joint '{last}' has a mass, expected one that physics can move. Give "
+            f"{', '.join(sorted(beyond))} an <inertial>; `dmpcpp check-urdf` names every link without one."
+        )
+
+
+def _repair_inertia(link: ET.Element) -> bool:
+    """Replace an inertia that is not physical; a link without mass and inertia is only a frame and stays."""
+    inertial = link.find("inertial")
+    if inertial is None:
+        _make_massless(link)
+        return False
+    element = inertial.find("inertia")
+    mass = float(getattr(inertial.find("mass"), "attrib", {}).get("value", 0.0))
+    if not 0.0 <= mass < np.inf:
+        raise InvalidArgument(f"arm.urdf: link '{link.get('name')}': <mass>: {mass} kg, expected 0 or more.")
+    inertia = _read_inertia(element, link.get("name", ""))
+    if is_physical(inertia) or (mass == 0.0 and not inertia.any()):
+        return False
+    if element is None:
+        element = ET.SubElement(inertial, "inertia")
+    _write_inertia(element, nearest_physical(inertia))
+    return True
+
+
+def _make_massless(link: ET.Element) -> None:
+    """Say in the URDF what a missing <inertial> means: no mass. (Bullet would take 1 kg.)"""
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "mass", value="0")
+    _write_inertia(ET.SubElement(inertial, "inertia"), np.zeros((3, 3)))
+
+
+def _read_inertia(element: ET.Element | None, link: str) -> NDArray[np.float64]:
+    if element is None:
+        return np.zeros((3, 3))
+    try:
+        xx, xy, xz, yy, yz, zz = (float(element.get(name, 0.0)) for name in _COMPONENTS)
+    except ValueError as error:
+        raise InvalidArgument(f"arm.urdf: link '{link}': <inertia>: {error}. Give six numbers.") from None
+    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if not np.isfinite(inertia).all():
+        raise InvalidArgument(f"arm.urdf: link '{link}': <inertia> is not finite. Give six numbers.")
+    return inertia
+
+
+def _write_inertia(element: ET.Element, inertia: NDArray[np.float64]) -> None:
+    for name, (row, column) in zip(_COMPONENTS, zip(*np.triu_indices(3), strict=True), strict=True):
+        element.set(name, repr(float(inertia[row, column])))
+
+
+def find_mesh(filename: str, folder: str, link: str = "") -> Path:
+    """Where a mesh is: by its own path, or below the URDF's folder or one above it (``package://`` paths)."""
+    path = Path(filename.removeprefix("file://").removeprefix("package://"))
+    start = Path(folder or ".").resolve()
+    candidates = [base / path for base in (start, *start.parents)]
+    if filename.startswith("package://"):
+        inside = Path(*path.parts[1:])
+        candidates += [base / inside for base in (start, *start.parents)]
+    for candidate in candidates:
+        if candidate.is_file():
+            return candidate
+    raise InvalidArgument(
+        f"arm.urdf: link '{link}': no mesh '{filename}' in '{start}' or a folder above it. "
+        "Load the arm from the URDF's own folder."
+    )
+
+
+def _rigid_groups(robot: ET.Element) -> tuple[frozenset[str], ...]:
+    """Links merged over fixed joints."""
+    group = {link.get("name", ""): frozenset([link.get("name", "")]) for link in robot.findall("link")}
+    for joint in robot.findall("joint"):
+        if joint.get("type") == "fixed":
+            merged = frozenset().union(*(group[name] for name in _ends(joint)))
+            group.update(dict.fromkeys(merged, merged))
+    return tuple(dict.fromkeys(group.values()))
+
+
+def _neighbours(robot: ET.Element, groups: tuple[frozenset[str], ...]) -> frozenset[frozenset[str]]:
+    of_link = {link: group for group in groups for link in group}
+    pairs = {frozenset(pair) for group in groups for pair in combinations(group, 2)}
+    for joint in robot.findall("joint"):
+        parent, child = (of_link[name] for name in _ends(joint))
+        pairs |= {frozenset(pair) for pair in product(parent, child)}
+    return frozenset(pair for pair in pairs if len(pair) == 2)
+
+
+def _ends(joint: ET.Element) -> tuple[str, str]:
+    parent, child = joint.find("parent"), joint.find("child")
+    assert parent is not None and child is not None  # urdfdom has read this text
+    return parent.get("link", ""), child.get("link", "")

@@ -1,0 +1,138 @@
+"""Arms by name: the URDFs that ship with PyBullet, with the real limits where those hold placeholders."""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp._core import Arm
+from dmpcpp.errors import InvalidArgument, MissingDependency
+
+DEFAULT_ACCELERATION = 10.0
+"""Joint acceleration limit [rad/s^2] of an arm whose maker states none. A URDF can not state one."""
+
+
+@dataclass(frozen=True)
+class KnownArm:
+    """An arm that can be found by name.
+
+    Attributes
+    ----------
+    urdf : str
+        Path inside the installed ``pybullet_data`` package.
+    base, tip : str
+        Links between which the arm stands.
+    velocity_limit, effort_limit : tuple of float or None
+        [rad/s, Nm] of the real machine; None where the URDF holds them already.
+    acceleration_limit : tuple of float or None
+        [rad/s^2]; None where the maker publishes none.
+    source : str
+        Where the limits come from.
+    """
+
+    urdf: str
+    base: str
+    tip: str
+    velocity_limit: tuple[float, ...] | None
+    effort_limit: tuple[float, ...] | None
+    acceleration_limit: tuple[float, ...] | None
+    source: str
+
+
+KNOWN: dict[str, KnownArm] = {
+    "panda": KnownArm(
+        urdf="franka_panda/panda.urdf",
+        base="panda_link0",
+        tip="panda_hand",
+        velocity_limit=None,
+        effort_limit=None,
+        acceleration_limit=(15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0),
+        source="Franka Emika Panda: Franka Control Interface documentation, 'Robot limits' (libfranka).",
+    ),
+    "iiwa": KnownArm(
+        urdf="kuka_iiwa/model.urdf",
+        base="lbr_iiwa_link_0",
+        tip="lbr_iiwa_link_7",
+        velocity_limit=tuple(math.radians(v) for v in (85, 85, 100, 75, 130, 135, 135)),
+        effort_limit=(320.0, 320.0, 176.0, 176.0, 110.0, 40.0, 40.0),
+        acceleration_limit=None,
+        source="KUKA LBR iiwa 14 R820: brochure 'Sensitive robotics LBR iiwa', axis data, p. 30. The URDF's "
+        "links (0.36 m, 0.42 m) are those of the R820; its velocity 10 and effort 300 are placeholders.",
+    ),
+    "xarm6": KnownArm(
+        urdf="xarm/xarm6_robot.urdf",
+        base="link_base",
+        tip="link6",
+        velocity_limit=None,
+        effort_limit=None,
+        acceleration_limit=None,
+        source="UFACTORY xArm 6: the URDF's own limits (180 deg/s).",
+    ),
+}
+
+
+def find(name: str) -> Arm:
+    """The arm "panda", "iiwa" or "xarm6", with the limits of the real machine (``KNOWN[name].source``).
+
+    Raises
+    ------
+    InvalidArgument
+        No such name; the message lists those that exist.
+    MissingDependency
+        pybullet_data, which holds the URDFs, is not installed.
+    """
+    if name not in KNOWN:
+        raise InvalidArgument(
+            f"arm: '{name}' is not known. Known are {', '.join(KNOWN)}; the path of a .urdf file works too."
+        )
+    known = KNOWN[name]
+    arm = Arm.from_urdf_file(str(_pybullet_data() / known.urdf), base=known.base, tip=known.tip)
+    return arm.with_limits(velocity=known.velocity_limit, effort=known.effort_limit)
+
+
+def load(name_or_path: str | Path, base: str | None = None, tip: str | None = None) -> Arm:
+    """An arm by name, or from a URDF file.
+
+    Parameters
+    ----------
+    name_or_path : str or Path
+        "panda", "iiwa", "xarm6" or the path of a URDF (anything that ends in .urdf or names a file).
+    base, tip : str, optional
+        Links between which the arm stands, for a URDF file; by default its only candidates.
+    """
+    path = Path(name_or_path)
+    if path.suffix.lower() == ".urdf" or path.is_file():
+        return Arm.from_urdf_file(str(path), base=base or "", tip=tip or "")
+    if base or tip:
+        raise InvalidArgument(f"base, tip: '{name_or_path}' has its own; they are for a .urdf file only.")
+    return find(str(name_or_path))
+
+
+def acceleration_limit(arm: Arm) -> NDArray[np.float64]:
+    """Joint acceleration limits (n,) [rad/s^2]: the maker's if ``KNOWN`` has them, else DEFAULT_ACCELERATION.
+
+    An arm is known by its name and its joints' number: ``panda`` of any base and tip with all joints has
+    Franka's.
+    """
+    for name, known in KNOWN.items():
+        limit = known.acceleration_limit
+        if limit is not None and arm.name == name and arm.joint_count == len(limit):
+            return np.array(limit)
+    return np.full(arm.joint_count, DEFAULT_ACCELERATION)
+
+
+def _pybullet_data() -> Path:
+    """Folder of the installed URDFs, found without importing PyBullet."""
+    spec = importlib.util.find_spec("pybullet_data")
+    if spec is None or not spec.submodule_search_locations:
+        raise MissingDependency(
+            "pybullet_data, which holds the URDFs of the known arms, is not installed. "
+            'Install the extra: pip install "dmpcpp[sim]" (wheels up to Python 3.11), '
+            "or give the path of a .urdf file."
+        )
+    return Path(spec.submodule_search_locations[0])

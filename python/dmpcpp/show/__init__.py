@@ -1,0 +1,1 @@
+"""What people look at: pictures (`plot`), a robot in a browser (`scene`, `view`) and the report of a run (`report`)."""

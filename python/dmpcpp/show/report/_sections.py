@@ -1,0 +1,188 @@
+"""The parts of a report, each a piece of HTML."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Any
+
+from dmpcpp import _core
+from dmpcpp.show.report import _figures as figures
+from dmpcpp.show.report._run_folder import RunFolder
+from dmpcpp.show.scene import replay_page
+
+__all__ = ["fitting", "history", "pictures", "repeat", "scene", "stages", "verdict"]
+
+_STAGES = {
+    "demonstration_to_dmp": "demonstration → DMP",
+    "dmp_to_ik": "DMP → FK(IK)",
+    "ik_to_executed": "FK(IK) → executed",
+}
+_CAPTIONS = (
+    ("Path", figures.path, "Dots: the demonstrated hand. Blue: the plan. Black: the tool, as executed."),
+    (
+        "Position over time",
+        figures.coordinates,
+        "Over the executed motion's time; the demonstration is stretched to it.",
+    ),
+    (
+        "Rotation over time",
+        figures.rotation,
+        "The entries of the rotation matrix of hand and tool in the arm's base frame.",
+    ),
+    ("Errors of every stage", figures.errors, "The largest of each short stretch, on logarithmic axes."),
+    (
+        "Joints against their limits",
+        figures.joints,
+        "100 % is a limit. A position is counted from the middle of its range; a joint without a limit is not drawn.",
+    ),
+    (
+        "Phase and kernels",
+        figures.phase_and_kernels,
+        "What drives the motion, and the kernels that shape it; some drawn.",
+    ),
+    (
+        "Demonstration and its spread",
+        figures.demonstrations,
+        "Dots: the samples. Band: two standard deviations of the noise that was found, about the smoothed motion.",
+    ),
+)
+
+
+def verdict(run: RunFolder) -> str:
+    """Say what came of it, with every check."""
+    summary, failed = run.summary, [check["name"] for check in run.summary["checks"] if not check["ok"]]
+    word, kind = ("Verified", "good") if run.ok else ("Not verified", "bad")
+    count = len(summary["checks"])
+    said = f"all {count} checks held" if not failed else f"{len(failed)} of {count} checks failed: {', '.join(failed)}"
+    how = f"{summary['arm']}, {summary['simulator']}, {summary['mode']} ({summary['caveat']})."
+    rows = sorted(map(_check_row, summary["checks"]), key=lambda row: row[0] == "ok")
+    table = _table(("", "check", "value", "limit", "unit", "where"), rows, "checks")
+    return (
+        f'<section id="verdict"><p class="verdict {kind}"><b>{word}</b>: {escape(said)}.</p>'
+        f"<p>{escape(_figures_of(summary))}</p><p>{escape(how)}</p>{table}</section>"
+    )
+
+
+def _figures_of(summary: dict[str, Any]) -> str:
+    return (
+        f"{summary['recording']['samples']} samples over {summary['recording']['duration']:.2f} s; "
+        f"{summary['basis_count']} kernels; executed in {summary['duration']:.2f} s, "
+        f"{summary['slowdown']:.2f} x the recorded duration."
+    )
+
+
+def _check_row(check: dict[str, Any]) -> tuple[str, ...]:
+    when = "" if check.get("time") is None else f"{check['time']:.2f} s "
+    mark = "ok" if check["ok"] else "FAIL"
+    return mark, check["name"], _number(check["value"]), _number(check["limit"]), check["unit"], when + check["detail"]
+
+
+def stages(run: RunFolder) -> str:
+    """Tabulate the errors of the three stages in mm and deg."""
+    rows = []
+    for name, found in run.summary["stages"].items():
+        lengths = (1e3 * found["position_rmse"], 1e3 * found["position_max"])
+        turns = (math.degrees(found["angle_rmse"]), math.degrees(found["angle_max"]))
+        rows.append((_STAGES.get(name, name), *map(_number, (*lengths, *turns))))
+    titles = ("stage", "position RMSE [mm]", "max [mm]", "angle RMSE [deg]", "max [deg]")
+    return f'<section id="stages"><h2>Errors</h2>{_table(titles, rows, "numbers")}</section>'
+
+
+def scene(run: RunFolder) -> str:
+    """Play the motion: the arm beside the demonstrated hand path."""
+    record = run.record
+    page = replay_page(
+        record.arm,
+        record.executed_time,
+        record.executed_joints,
+        executed=record.executed_pose,
+        demonstrated_time=record.demonstrated_time,
+        demonstrated=record.demonstrated_pose,
+    )
+    return (
+        '<section id="scene"><h2>The motion</h2>'
+        f'<iframe class="screen" title="The arm replays the motion" srcdoc="{escape(page)}"></iframe>'
+        f'<figure class="paper">{figures.still(run)}</figure>'
+        "<p>Orange: the demonstrated hand and its path. Black: the path of the tool, as executed. "
+        '<span class="screen">Drag to turn, scroll to come nearer. </span>'
+        "The arm is drawn by the shapes that it collides with.</p></section>"
+    )
+
+
+def pictures(run: RunFolder) -> str:
+    """Draw all figures."""
+    return "".join(
+        f'<section class="picture"><h2>{title}</h2><figure>{draw(run)}<figcaption>{escape(caption)}</figcaption>'
+        "</figure></section>"
+        for title, draw, caption in _CAPTIONS
+    )
+
+
+def history(run: RunFolder) -> str:
+    """List what was done to the recording."""
+    recording = run.summary["recording"]
+    steps = "".join(f"<li>{escape(step)}</li>" for step in recording["history"])
+    noise = recording["noise"]
+    return (
+        f'<section id="history"><h2>The recording</h2><p>{escape(recording["source"])} ({escape(recording["body"])}); '
+        f"noise found: {_number(1e3 * noise['position'])} mm, {_number(math.degrees(noise['angle']))} deg per axis.</p>"
+        f"<ol>{steps}</ol></section>"
+    )
+
+
+def fitting(run: RunFolder) -> str:
+    """Tabulate how the model reproduces the demonstration, by axis."""
+    record = run.record
+    found = _core.assess(run.model, [_core.PoseDemonstration(record.demonstrated_time, record.demonstrated_pose)])
+    scale = [1e3] * 3 + [math.degrees(1.0)] * 3
+    rows = [
+        (name, *(_number(k * value) for k, value in zip(scale, values, strict=True)))
+        for name, values in (
+            ("RMSE", found.rmse),
+            ("largest", found.largest),
+            ("noise found", found.noise),
+            ("taken out by smoothing", found.removed),
+        )
+    ]
+    titles = ("", "x [mm]", "y [mm]", "z [mm]", "about x [deg]", "about y [deg]", "about z [deg]")
+    count = found.suggested_basis_count
+    enough = (
+        f"{count} kernels would reach 1 mm and 0.5 deg" if count else "no number of kernels reaches 1 mm and 0.5 deg"
+    )
+    notes = "".join(f"<li>{escape(warning)}</li>" for warning in found.warnings)
+    return (
+        f'<section id="fit"><h2>The model</h2>{_table(titles, rows, "numbers")}<p>{run.model.options.basis_count} '
+        f"kernels; {enough}. Condition of the regression: {_number(found.condition)}.</p><ul>{notes}</ul></section>"
+    )
+
+
+def repeat(run: RunFolder) -> str:
+    """Say how to repeat the run."""
+    version = escape(_core.__version__)
+    if not run.config:
+        said = "<p>This run was made from Python; the files beside this page hold its results.</p>"
+    else:
+        command = next((line.strip("# ") for line in run.config.splitlines() if "--config" in line), "")
+        said = f"<pre>{escape(command)}</pre><p>config.toml, beside this page:</p><pre>{escape(run.config)}</pre>"
+    return (
+        f'<section id="repeat"><h2>How to repeat</h2>{said}<p>dmpcpp {version}. This page is made anew from the files '
+        "beside it by <code>dmpcpp report</code>.</p></section>"
+    )
+
+
+def _table(titles: Sequence[str], rows: Iterable[Sequence[str]], kind: str) -> str:
+    head = "".join(f"<th>{escape(title)}</th>" for title in titles)
+    body = "".join(
+        f'<tr class="{_row_kind(row)}">' + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
+    )
+    return f'<div class="wide"><table class="{kind}"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+
+
+def _row_kind(row: Sequence[str]) -> str:
+    return "failed" if row[0] == "FAIL" else "held"
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3g}"

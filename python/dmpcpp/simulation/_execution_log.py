@@ -1,0 +1,117 @@
+"""What an execution leaves behind: every step, as wanted and as measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp.metrics import StageErrors, compare
+from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.simulation._simulator import Contact
+from dmpcpp.simulation._verdict import Verdict, judge
+
+_KNOWS_ALL = "the controller knows the simulated masses exactly; model errors, delay and friction are not in it"
+_RECORDED = (
+    "recorded on a real arm: where the tool was is the forward kinematics of the measured joints; the arm's "
+    "calibration, its flexing and contacts are not in the log"
+)
+_MOTORS = "the engine's motors are constraints solved inside the step; only kinematics and the torque cap are tested"
+
+
+@dataclass(frozen=True)
+class ContactEvent:
+    """A contact at one step of an execution.
+
+    Attributes
+    ----------
+    step : int
+    time : float
+        [s]
+    contact : Contact
+    """
+
+    step: int
+    time: float
+    contact: Contact
+
+
+@dataclass(frozen=True)
+class ExecutionLog:
+    """A joint trajectory as an arm carried it out: N steps of n joints.
+
+    Attributes
+    ----------
+    arm : Arm
+    joints : JointTrajectory
+        What was to be carried out.
+    simulator : str
+        Engine and version.
+    mode : str
+        "computed_torque", "position", "position_velocity", "velocity", or "recorded" on a real arm;
+        ``caveat`` says what it can not see.
+    rate : float
+        Control steps a second [Hz].
+    motion : slice
+        The steps of the trajectory itself, without lead-in, lead-out and settling.
+    planned_steps : int
+        Steps that were wanted; fewer were done if the state left the finite numbers.
+    repaired_links : tuple of str
+        Links whose inertia was not physical and was replaced.
+    time : (N,) s
+        0 at the first sample of the trajectory; the lead-in is negative.
+    desired_position, position : (N, n) rad
+    desired_velocity, velocity : (N, n) rad/s
+    torque_demand, torque : (N, n) Nm
+        What the controller asked for, and what was given after clipping at the effort limit.
+    desired_tool_pose : (N, 4, 4)
+        By ``arm.forward_kinematics`` (KDL), in the frame of ``arm.base``.
+    tool_pose : (N, 4, 4)
+        By the simulator's own kinematics.
+    contacts : tuple of ContactEvent
+    disturbance : Disturbance
+        What the controller did not know.
+    """
+
+    arm: Arm
+    joints: JointTrajectory
+    simulator: str
+    mode: str
+    rate: float
+    motion: slice
+    planned_steps: int
+    repaired_links: tuple[str, ...]
+    time: NDArray[np.float64]
+    desired_position: NDArray[np.float64]
+    position: NDArray[np.float64]
+    desired_velocity: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    torque_demand: NDArray[np.float64]
+    torque: NDArray[np.float64]
+    desired_tool_pose: NDArray[np.float64]
+    tool_pose: NDArray[np.float64]
+    contacts: tuple[ContactEvent, ...]
+    disturbance: Disturbance = field(default_factory=Disturbance)
+
+    @property
+    def caveat(self) -> str:
+        """What this mode can not see."""
+        if self.mode == "recorded":
+            return _RECORDED
+        unknown = f"the controller does not know of {self.disturbance}" if self.disturbance != Disturbance() else ""
+        if self.mode != "computed_torque":
+            return f"{_MOTORS}; {unknown}" if unknown else _MOTORS
+        return unknown or _KNOWS_ALL
+
+    @cached_property
+    def errors(self) -> StageErrors:
+        """Tool pose as executed against FK of the joint trajectory, over the motion itself."""
+        return compare(self.desired_tool_pose[self.motion], self.tool_pose[self.motion])
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """What held and what did not, by the default tolerances; ``judge(log, tolerances)`` takes others."""
+        return judge(self)

@@ -1,0 +1,278 @@
+"""MuJoCo behind the ``Simulator`` interface: the second opinion, an engine that nothing here was tuned for.
+
+It gets the same repaired URDF as ``Bullet``. Its defaults are changed where they are no rigid-body dynamics or
+write files: joint damping is stepped explicitly, no step is undone when it fails, no warning goes to a log file.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import tempfile
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp._core import Arm
+from dmpcpp.errors import InvalidArgument, MissingDependency
+from dmpcpp.robot._description import RobotDescription, describe, links_of
+from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.simulation._obstacles import Box, refuse_names
+from dmpcpp.simulation._quiet import quiet
+from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step
+
+_FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
+_COMPILER = '<mujoco><compiler fusestatic="false" strippath="false"/></mujoco>'
+"""In the URDF: a link that is fixed to another keeps its name, a mesh its folder."""
+_SURROUNDINGS = "dmpcpp_surroundings"  # a body of their own: the root link of a URDF may be called "world"
+
+
+class MuJoCo:
+    """An arm on a fixed base in MuJoCo, in a world of its own.
+
+    Joints that are not the arm's are fixed in the middle of their range. MuJoCo has no motors inside its step:
+    ``servo`` gives the torque that its own inverse dynamics asks for, clipped at the effort limit.
+
+    Parameters
+    ----------
+    arm : Arm
+        Its URDF is loaded with the root at the world's origin; gravity points along -z of the root.
+    time_step : float
+        [s], > 0.
+    floor : float or None
+        Height of the ground [m] in the root's frame; None for no ground.
+    disturbance : Disturbance, optional
+        In what this arm differs from ``arm``; ``inverse_dynamics`` knows nothing of its damping and friction.
+    obstacles : sequence of Box
+        Fixed things in the arm's way.
+
+    Raises
+    ------
+    MissingDependency
+        mujoco is not installed.
+    InvalidArgument
+        The URDF can not be simulated; the message says why.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        time_step: float,
+        *,
+        floor: float | None = 0.0,
+        disturbance: Disturbance | None = None,
+        obstacles: Sequence[Box] = (),
+    ) -> None:
+        """Load the arm into a world of its own."""
+        self.arm, self.time_step = arm, checked_time_step(time_step)
+        refuse_names(obstacles, links_of(arm))
+        self._m = _mujoco()
+        self.name = f"MuJoCo {importlib.metadata.version('mujoco')}"
+        disturbance = disturbance or Disturbance()
+        with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
+            description = describe(arm, Path(folder), disturbance=disturbance, only_the_arm_moves=True)
+            self._model = self._compile(description, floor, obstacles)
+        self.repaired_links = description.repaired_links
+        self._damping = self._model.dof_damping.copy()
+        self._model.dof_damping[:] += disturbance.damping
+        self._model.dof_frictionloss[:] = disturbance.friction
+        self._find_joints()
+        self._pairs = list(self._colliding_pairs(description))
+        self._limit = np.minimum(arm.effort_limit, np.finfo(np.float64).max)
+        self.reset(np.zeros(arm.joint_count), np.zeros(arm.joint_count))
+
+    # ---- Simulator ---------------------------------------------------------------------------------------
+
+    def reset(self, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+        """Put the arm into a state."""
+        self._m.mj_resetData(self._model, self._data)
+        self._q[self._order], self._qd[self._order] = position, velocity
+        self._look()
+
+    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Position and velocity after the last step."""
+        return self._q[self._order], self._qd[self._order]
+
+    def inverse_dynamics(
+        self,
+        acceleration: NDArray[np.float64],
+        position: NDArray[np.float64] | None = None,
+        velocity: NDArray[np.float64] | None = None,
+    ) -> NDArray[np.float64]:
+        """Torque for an acceleration of the arm's joints, by recursive Newton-Euler."""
+        data = self._thought
+        data.qpos[self._order] = self._q[self._order] if position is None else position
+        data.qvel[self._order] = self._qd[self._order] if velocity is None else velocity
+        data.qacc[self._order] = acceleration
+        self._m.mj_kinematics(self._model, data)
+        self._m.mj_comPos(self._model, data)
+        self._m.mj_comVel(self._model, data)
+        self._m.mj_rne(self._model, data, 1, self._torque)
+        torque: NDArray[np.float64] = (self._torque + self._damping * data.qvel)[self._order]
+        return torque
+
+    def apply_torque(self, torque: NDArray[np.float64]) -> None:
+        """Torque of the next step."""
+        self._applied[self._order] = torque
+
+    def servo(self, velocity: NDArray[np.float64]) -> None:
+        """Torque that reaches the velocity within the step, clipped."""
+        position, now = self.state()
+        torque = self.inverse_dynamics((velocity - now) / self.time_step, position, now)
+        torque += (self._model.dof_damping - self._damping)[self._order] * now
+        self.apply_torque(np.clip(torque, -self._limit, self._limit))
+
+    def servo_torque(self) -> NDArray[np.float64]:
+        """Torque that ``servo`` gave."""
+        torque: NDArray[np.float64] = self._applied[self._order]
+        return torque
+
+    def step(self) -> None:
+        """Advance by semi-implicit Euler and look where everything is."""
+        # mj_step does the same, but it undoes a step that is not finite and writes a log file about it.
+        self._m.mj_fwdActuation(self._model, self._data)
+        self._m.mj_fwdAcceleration(self._model, self._data)
+        self._m.mj_fwdConstraint(self._model, self._data)
+        self._m.mj_Euler(self._model, self._data)
+        self._look()
+
+    def tool_pose(self) -> NDArray[np.float64]:
+        """Pose of the tip in the base frame, by MuJoCo."""
+        tip = self._pose(self._tip)
+        return tip if self._base_is_root else np.linalg.inv(self._pose(self._base)) @ tip
+
+    def contacts(self) -> list[Contact]:
+        """The deepest contact of every pair that overlaps."""
+        if self._data.ncon == 0:
+            return []
+        found = self._data.contact
+        deepest: dict[tuple[str, str], float] = {}
+        for (one, other), distance in zip(found.geom.tolist(), found.dist.tolist(), strict=True):
+            if distance < 0.0:
+                pair = self._names_of(one, other)
+                deepest[pair] = max(deepest.get(pair, 0.0), -distance)
+        return [Contact(*pair, depth) for pair, depth in sorted(deepest.items())]
+
+    def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
+        """Contacts with the arm put at a position."""
+        self.reset(position, np.zeros_like(position))
+        return self.contacts()
+
+    def clearances_at(self, position: NDArray[np.float64], within: float) -> list[Clearance]:
+        """Distances of every pair that may collide, with the arm put at a position."""
+        self.reset(position, np.zeros_like(position))
+        nearest: dict[tuple[str, str], float] = {}
+        for one, other in self._pairs:
+            distance = float(self._m.mj_geomDistance(self._model, self._data, one, other, within, None))
+            if distance < within:
+                pair = self._names_of(one, other)
+                nearest[pair] = min(nearest.get(pair, within), distance)
+        return [Clearance(*pair, distance) for pair, distance in sorted(nearest.items())]
+
+    def close(self) -> None:
+        """Nothing is left behind: MuJoCo's memory goes with the object."""
+
+    def __enter__(self) -> Self:
+        """The world."""
+        return self
+
+    def __exit__(self, *failure: object) -> None:
+        """Close it."""
+        self.close()
+
+    # ---- setting up --------------------------------------------------------------------------------------
+
+    def _compile(self, description: RobotDescription, floor: float | None, obstacles: Sequence[Box]) -> Any:
+        m = self._m
+        try:
+            with quiet():  # older ones write warnings to the terminal
+                model = self._spec(description, floor, obstacles).compile()
+        except (ValueError, m.FatalError) as error:
+            reason = " ".join(str(error).split())
+            raise InvalidArgument(f"arm.urdf: MuJoCo can not load '{self.arm.name}': {reason}") from None
+        model.opt.timestep = self.time_step
+        model.opt.gravity[:] = 0.0, 0.0, GRAVITY
+        model.opt.integrator = m.mjtIntegrator.mjINT_EULER
+        model.opt.disableflags |= int(m.mjtDisableBit.mjDSBL_EULERDAMP)
+        return model
+
+    def _spec(self, description: RobotDescription, floor: float | None, obstacles: Sequence[Box]) -> Any:
+        spec = self._m.MjSpec.from_string(description.text.replace("</robot>", f"{_COMPILER}</robot>"))
+        for a, b in sorted(tuple(sorted(pair)) for pair in description.neighbours):
+            spec.add_exclude(bodyname1=a, bodyname2=b)
+        self._add_surroundings(spec, floor, obstacles)
+        return spec
+
+    def _add_surroundings(self, spec: Any, floor: float | None, obstacles: Sequence[Box]) -> None:
+        kinds, still = self._m.mjtGeom, spec.worldbody.add_body(name=_SURROUNDINGS)
+        if floor is not None:
+            size = [_FLOOR_DRAWN, _FLOOR_DRAWN, 1.0]
+            still.add_geom(name=FLOOR, type=kinds.mjGEOM_PLANE, size=size, pos=[0.0, 0.0, floor])
+        for box in obstacles:
+            half = [0.5 * side for side in box.size]
+            still.add_geom(name=box.name, type=kinds.mjGEOM_BOX, size=half, pos=list(box.centre))
+
+    def _find_joints(self) -> None:
+        """Index joints and links by name; take all memory."""
+        model = self._model
+        self._data, self._thought = self._m.MjData(model), self._m.MjData(model)
+        self._order = np.array([model.jnt_dofadr[model.joint(name).id] for name in self.arm.joint_names])
+        self._q, self._qd, self._applied = self._data.qpos, self._data.qvel, self._data.qfrc_applied
+        self._torque = np.empty(model.nv)
+        self._base, self._tip = model.body(self.arm.base).id, model.body(self.arm.tip).id
+        self._base_is_root = bool(np.array_equal(self._base_pose(), np.eye(4)))
+
+    def _base_pose(self) -> NDArray[np.float64]:
+        self._m.mj_kinematics(self._model, self._data)
+        is_fixed = self._model.body_weldid[self._base] == 0
+        return self._pose(self._base) if is_fixed else np.zeros((4, 4))
+
+    def _colliding_pairs(self, description: RobotDescription) -> Iterator[tuple[int, int]]:
+        """Geoms that may touch: not of links joined by construction, and not two that never move."""
+        model = self._model
+        still = model.body_weldid[model.geom_bodyid] == 0
+        for one, other in combinations(range(model.ngeom), 2):
+            bodies = frozenset(self._body_of(geom) for geom in (one, other))
+            if not (still[one] and still[other]) and len(bodies) == 2 and bodies not in description.neighbours:
+                yield one, other
+
+    # ---- reading -----------------------------------------------------------------------------------------
+
+    def _look(self) -> None:
+        """All that follows from position and velocity, contacts included."""
+        self._m.mj_fwdPosition(self._model, self._data)
+        self._m.mj_fwdVelocity(self._model, self._data)
+
+    def _pose(self, body: int) -> NDArray[np.float64]:
+        pose = np.eye(4)
+        pose[:3, :3] = self._data.xmat[body].reshape(3, 3)
+        pose[:3, 3] = self._data.xpos[body]
+        return pose
+
+    def _names_of(self, one: int, other: int) -> tuple[str, str]:
+        """The links of two geoms, what stands in the world last."""
+        names = [self._name_of(geom) for geom in (one, other)]
+        around = [self._body_of(geom) == _SURROUNDINGS for geom in (one, other)]
+        if any(around):
+            return (names[1], names[0]) if around[0] else (names[0], names[1])
+        first, last = sorted(names)
+        return first, last
+
+    def _name_of(self, geom: int) -> str:
+        body = self._body_of(geom)
+        return str(self._model.geom(geom).name) if body == _SURROUNDINGS else body
+
+    def _body_of(self, geom: int) -> str:
+        return str(self._model.body(int(self._model.geom_bodyid[geom])).name)
+
+
+def _mujoco() -> ModuleType:
+    try:
+        return importlib.import_module("mujoco")
+    except ImportError:
+        raise MissingDependency('mujoco is not installed. Install the extra: pip install "dmpcpp[mujoco]".') from None

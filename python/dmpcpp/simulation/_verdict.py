@@ -1,0 +1,181 @@
+"""What held in an execution and what did not: one check per promise, each with its number and its limit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dmpcpp.checks import Check, Checked
+from dmpcpp.metrics import angle_errors, position_errors
+from dmpcpp.robot._description import links_of
+from dmpcpp.robot.arms import acceleration_limit
+from dmpcpp.simulation._simulator import kind_of
+
+if TYPE_CHECKING:
+    from dmpcpp.simulation._execution_log import ExecutionLog
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Limits of the checks: m, rad, ratios to the arm's limits, counts."""
+
+    position_rmse: float = 0.5e-3
+    position_max: float = 2e-3
+    angle_rmse: float = 2e-3
+    angle_max: float = 10e-3
+    settle_error: float = 0.1e-3
+    ik_position: float = 1e-5
+    ik_angle: float = 1e-5
+    joint_margin: float = 0.0
+    velocity_ratio: float = 1.0
+    acceleration_ratio: float = 1.0
+    torque_ratio: float = 1.0
+    self_collision: int = 0
+    floor_contact: int = 0
+    object_contact: int = 0
+    repaired_inertias: int = 0
+    kinematics_mismatch: float = 1e-6
+
+
+@dataclass(frozen=True)
+class Verdict(Checked):
+    """All checks of an execution.
+
+    Attributes
+    ----------
+    checks : tuple of Check
+    caveat : str
+        What the mode of the execution can not see.
+    """
+
+    checks: tuple[Check, ...]
+    caveat: str = ""
+
+
+ROUNDING = 1e-6
+"""What a limit forgives: a motion scaled to exactly a limit meets it only to rounding and tracking."""
+
+
+def judge(log: ExecutionLog, tolerances: Tolerances | None = None) -> Verdict:
+    """Hold an execution against its tolerances.
+
+    Tracking is judged over the motion itself; limits, contacts and torque over all steps, lead-in, lead-out
+    and settling included. Limits forgive ROUNDING.
+    """
+    tolerances = tolerances or Tolerances()
+    checks = [_finite(log)]
+    for group in (_tracking, _limits, _contacts, _inverse_kinematics, _model):
+        checks += group(log, tolerances)
+    return Verdict(tuple(checks), log.caveat)
+
+
+@dataclass(frozen=True)
+class _Series:
+    """A quantity over time; ``where`` names the columns."""
+
+    time: NDArray[np.float64]
+    values: NDArray[np.float64]  # (N,) or (N, n)
+    where: tuple[str, ...] = field(default=("",))
+
+    def worst(self, pick: Callable[[NDArray[np.float64]], Any]) -> tuple[float, float | None, str]:
+        if self.values.size == 0:
+            return math.nan, None, "nothing was executed"
+        values = self.values.reshape(len(self.time), -1)
+        step, column = np.unravel_index(pick(values), values.shape)
+        return float(values[step, column]), float(self.time[step]), self.where[int(column)]
+
+
+def _at_most(name: str, series: _Series, limit: float, unit: str) -> Check:
+    value, time, detail = series.worst(np.argmax)
+    return Check(name, value <= limit + ROUNDING * abs(limit), value, limit, unit, time, detail)
+
+
+def _finite(log: ExecutionLog) -> Check:
+    missing = log.planned_steps - len(log.time)
+    when = float(log.time[-1]) if missing and len(log.time) else None
+    return Check(
+        "finite",
+        missing == 0,
+        missing,
+        0,
+        "steps",
+        when,
+        "the state left the finite numbers" if missing else "",
+    )
+
+
+def _tracking(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
+    time = log.time[log.motion]
+    desired, measured = log.desired_tool_pose[log.motion], log.tool_pose[log.motion]
+    for name, errors, unit in (
+        ("position", position_errors(desired, measured), "m"),
+        ("angle", angle_errors(desired, measured), "rad"),
+    ):
+        rmse = float(np.sqrt(np.mean(errors**2))) if errors.size else math.nan
+        limit = getattr(tolerances, f"{name}_rmse")
+        yield Check(f"tracking_{name}_rmse", rmse <= limit, rmse, limit, unit)
+        yield _at_most(f"tracking_{name}_max", _Series(time, errors), getattr(tolerances, f"{name}_max"), unit)
+    last = _Series(log.time[-1:], position_errors(log.desired_tool_pose[-1:], log.tool_pose[-1:]))
+    yield _at_most("settle_error", last, tolerances.settle_error, "m")
+
+
+def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
+    arm, names = log.arm, tuple(log.arm.joint_names)
+    margin = np.minimum(log.position - arm.lower, arm.upper - log.position)
+    value, time, detail = _Series(log.time, margin, names).worst(np.argmin)
+    limit = tolerances.joint_margin
+    yield Check("joint_margin", value >= limit - ROUNDING, value, limit, "rad", time, detail)
+    speed = _Series(log.time, np.abs(log.velocity) / arm.velocity_limit, names)
+    yield _at_most("velocity_ratio", speed, tolerances.velocity_ratio, "1")
+    yield _at_most("acceleration_ratio", _accelerations(log), tolerances.acceleration_ratio, "1")
+    torque = _Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, names)
+    yield _at_most("torque_ratio", torque, tolerances.torque_ratio, "1")
+    clipped = (np.abs(log.torque) >= arm.effort_limit).any(axis=1)
+    when = float(log.time[np.argmax(clipped)]) if clipped.any() else None
+    yield Check("torque_clipped", not clipped.any(), int(clipped.sum()), 0, "steps", when)
+
+
+def _accelerations(log: ExecutionLog) -> _Series:
+    """Differences of the measured velocity over a step, as ratios to what the maker allows (``arms``)."""
+    values = np.abs(np.diff(log.velocity, axis=0)) * log.rate / acceleration_limit(log.arm)
+    return _Series(log.time[1:], values, tuple(log.arm.joint_names))
+
+
+def _contacts(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
+    links = links_of(log.arm)
+    for name, kind in (("self_collision", "self"), ("floor_contact", "floor"), ("object_contact", "object")):
+        events = [event for event in log.contacts if kind_of(event.contact.other, links) == kind]
+        count, limit = len({event.step for event in events}), getattr(tolerances, name)
+        deepest = max(events, key=lambda event: event.contact.depth, default=None)
+        detail = ""
+        if deepest:
+            contact = deepest.contact
+            detail = f"{contact.link} and {contact.other}, {contact.depth * 1e3:.1f} mm deep"
+        yield Check(name, count <= limit, count, limit, "steps", deepest.time if deepest else None, detail)
+
+
+def _inverse_kinematics(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
+    report = getattr(log.joints, "report", None)
+    if report is None or len(report.position_error) == 0:
+        return
+    for name, errors, unit in (
+        ("position", report.position_error, "m"),
+        ("angle", report.angle_error, "rad"),
+    ):
+        series = _Series(log.joints.time - log.joints.time[0], np.asarray(errors))
+        yield _at_most(f"ik_{name}_residual", series, getattr(tolerances, f"ik_{name}"), unit)
+
+
+def _model(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
+    """The arm that was simulated is the arm that was planned for."""
+    links = log.repaired_links
+    detail = f"not physical, replaced: {', '.join(links)}" if links else ""
+    limit = tolerances.repaired_inertias
+    yield Check("inertia", len(links) <= limit, len(links), limit, "links", None, detail)
+    mismatch = position_errors(log.arm.forward_kinematics(log.position), log.tool_pose)
+    yield _at_most("kinematics_mismatch", _Series(log.time, mismatch), tolerances.kinematics_mismatch, "m")

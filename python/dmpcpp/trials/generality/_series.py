@@ -1,0 +1,125 @@
+"""Many trials, kept one a line in a file, so that a run that was stopped goes on where it was."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import as_completed
+from contextlib import closing
+from itertools import product
+from os import PathLike
+from pathlib import Path
+
+from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.trials._processes import workers
+from dmpcpp.trials.generality._motions import NOISE
+from dmpcpp.trials.generality._trial import Result, Trial, attempt
+
+__all__ = ["kept", "run", "trials"]
+
+
+def trials(count: int, arms: Iterable[str], noises: Iterable[str] = tuple(NOISE), seed: int = 0) -> list[Trial]:
+    """Return the trials of `count` motions with every arm at every level of noise, motion by motion.
+
+    Raises
+    ------
+    InvalidArgument
+        A count below 1, a seed below 0, no arm, or a level of noise that is none of NOISE.
+    """
+    arms, noises = tuple(dict.fromkeys(arms)), tuple(dict.fromkeys(noises))
+    for name, value, least in (("count", count, 1), ("seed", seed, 0)):
+        if value < least:
+            raise InvalidArgument(f"{name}: {value}, expected {least} or more.")
+    unknown = [noise for noise in noises if noise not in NOISE]
+    if unknown or not noises:
+        raise InvalidArgument(f"noises: {unknown or 'none'}, expected some of {', '.join(NOISE)}.")
+    if not arms:
+        raise InvalidArgument("arms: none, expected at least one.")
+    return [Trial(arm, noise, seed, index) for index, arm, noise in product(range(count), arms, noises)]
+
+
+def run(
+    wanted: list[Trial],
+    path: str | PathLike[str],
+    jobs: int = 1,
+    progress: Callable[[int, int, int], None] | None = None,
+) -> list[Result]:
+    """Make the trials that the file does not hold yet, and return the results of all that are wanted.
+
+    Parameters
+    ----------
+    wanted : list of Trial
+    path : path
+        JSON lines; every result is appended when it is there. Results of other trials stay in it.
+    jobs : int
+        Processes at a time, 1 or more.
+    progress : callable, optional
+        Called as progress(done, failed among them, total).
+
+    Raises
+    ------
+    InvalidArgument
+        jobs below 1, or a line of the file that is no result (a last line that was cut off is not minded).
+    FileError
+        The file can not be read or written.
+    """
+    if jobs < 1:
+        raise InvalidArgument(f"jobs: {jobs}, expected 1 or more.")
+    path = Path(path)
+    results = {result.trial: result for result in kept(path)}
+    missing = [trial for trial in wanted if trial not in results]
+    _tell(progress, wanted, results)
+    with closing(_made(missing, jobs)) as made:
+        for result in made:
+            _append(path, result)
+            results[result.trial] = result
+            _tell(progress, wanted, results)
+    return [results[trial] for trial in wanted]
+
+
+def kept(path: str | PathLike[str]) -> list[Result]:
+    """Return the results in a file; none where there is no file. Errors are those of `run`."""
+    try:
+        lines = Path(path).read_text(encoding="utf-8").split("\n")
+    except FileNotFoundError:
+        return []
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError(f"{path}: can not be read ({error}).") from None
+    return [_parsed(line, f"{path}, line {k}") for k, line in enumerate(lines[:-1], start=1)]  # the last is cut off
+
+
+def _parsed(line: str, where: str) -> Result:
+    try:
+        return Result.from_dict(json.loads(line))
+    except (ValueError, KeyError, TypeError):
+        raise InvalidArgument(f"{where}: no result of a trial. Remove the file to begin anew.") from None
+
+
+def _tell(progress: Callable[[int, int, int], None] | None, wanted: list[Trial], results: dict[Trial, Result]) -> None:
+    if progress:
+        done = [results[trial] for trial in wanted if trial in results]
+        progress(len(done), sum(not result.ok for result in done), len(wanted))
+
+
+def _made(missing: list[Trial], jobs: int) -> Generator[Result]:
+    if jobs == 1 or len(missing) < 2:
+        yield from map(attempt, missing)
+        return
+    with workers(jobs) as pool:
+        futures = [pool.submit(attempt, trial) for trial in missing]
+        yield from (future.result() for future in as_completed(futures))
+
+
+def _append(path: Path, result: Result) -> None:
+    """Add a line; what a stop in the middle of one left behind goes first."""
+    line = json.dumps(result.to_dict(), allow_nan=False) + "\n"
+    try:
+        with path.open("ab+") as file:
+            file.truncate(_end_of_last_line(path))
+            file.write(line.encode())
+    except OSError as error:
+        raise FileError(f"{path}: can not be written ({error.strerror or error}).") from error
+
+
+def _end_of_last_line(path: Path) -> int:
+    return path.read_bytes().rfind(b"\n") + 1
