@@ -37,7 +37,6 @@ set(DMP_kinematics_SOURCES
   kinematics/ik_search.cpp
   kinematics/inverse_kinematics.cpp
   kinematics/joint_range.cpp
-  kinematics/joint_spline.cpp
   kinematics/joint_tracker.cpp
   kinematics/kdl_backend.cpp
   kinematics/path_tracker.cpp
@@ -50,6 +49,8 @@ set(DMP_kinematics_SOURCES
   robot/arm_dynamics.cpp
   robot/checks.cpp
   robot/flat_chain.cpp
+  robot/joint_spline.cpp
+  robot/joint_trajectory.cpp
   robot/kdl_forward.cpp
   robot/urdf_chain.cpp
   robot/urdf_graph.cpp

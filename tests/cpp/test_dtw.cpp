@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
-#include <dmp/dtw.hpp>
 #include <dmp/demonstration.hpp>
+#include <dmp/dtw.hpp>
 #include <dmp/error.hpp>
 #include <dmp/so3.hpp>
 

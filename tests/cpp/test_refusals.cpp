@@ -1,7 +1,7 @@
 // Every number that can be given to dmp::core, replaced by every bad one; see refusals.hpp.
 #include <doctest/doctest.h>
-#include <dmp/dtw.hpp>
 #include <dmp/batch.hpp>
+#include <dmp/dtw.hpp>
 #include <dmp/error.hpp>
 #include <dmp/fit_report.hpp>
 #include <dmp/phase.hpp>

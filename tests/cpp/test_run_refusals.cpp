@@ -159,3 +159,26 @@ TEST_CASE("a phase is as it was after a refusal") {
     }
   }
 }
+
+TEST_CASE(
+    "a goal or start that was printed with four decimals is taken by the rollout and by the run alike") {
+  const PoseDmp model = PoseDmp::fit(motions::pose(100, 1.0));
+  Eigen::Matrix4d exact = model.goal();
+  exact.topLeftCorner<3, 3>() *= so3::exp({0.3, -0.2, 0.1});
+  const Eigen::Matrix4d printed = (exact * 1e4).array().round() / 1e4;
+  REQUIRE((printed - exact).norm() > 1e-6);
+
+  PoseRun run(model);
+  CHECK(run.set_goal(printed) == Status::running);
+  const Eigen::Matrix3d taken = run.goal().topLeftCorner<3, 3>();
+  CHECK((taken.transpose() * taken - Eigen::Matrix3d::Identity()).norm() < 1e-14);
+  CHECK(so3::distance(taken, so3::nearest_rotation(printed.topLeftCorner<3, 3>())) < 1e-14);
+  const Eigen::Matrix4d rolled = model.rollout(printed).pose.back();
+  while (run.step(1e-3) == Status::running) continue;
+  CHECK((run.pose() - rolled).norm() < 1e-6);
+  CHECK(run.start_from(printed, Eigen::Matrix<double, 6, 1>::Zero()) == Status::running);
+
+  OrientationRun turn(OrientationDmp::fit(motions::rotation(100, 1.0, 2.0)));
+  CHECK(turn.set_goal(printed.topLeftCorner<3, 3>()) == Status::running);
+  CHECK(turn.set_goal(1.001 * printed.topLeftCorner<3, 3>()) == Status::invalid_input);
+}

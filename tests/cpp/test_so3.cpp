@@ -201,3 +201,12 @@ TEST_CASE("an unknown convention and a matrix that is no rotation are refused wi
   CHECK_THROWS_AS(so3::require_rotation(1.01 * Matrix3d::Identity(), "r"), InvalidArgument);
   CHECK_THROWS_AS(so3::require_rotation(NAN * Matrix3d::Identity(), "r"), InvalidArgument);
 }
+
+TEST_CASE(
+    "the mean of rotations about one axis turns by the mean of their angles; one alone is its own mean") {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized();
+  const Rotations both{so3::exp(0.2 * axis), so3::exp(1.0 * axis)};
+  CHECK(so3::distance(so3::mean_rotation(both), so3::exp(0.6 * axis)) < 1e-15);
+  CHECK(so3::mean_rotation({both[0]}) == both[0]);
+  CHECK_THROWS_AS(so3::mean_rotation({}), InvalidArgument);
+}

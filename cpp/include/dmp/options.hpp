@@ -64,9 +64,18 @@ struct DmpOptions {
       0.1;  ///< s, time constant with which a change of tempo (duration, pause, phase stop) is approached
   double phase_stop = 0.0;  ///< k: a tracking error e slows the phase to sd = 1 / (tau (1 + k e))
 
-  /// The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended:
+  /// Throws InvalidArgument, naming the field, for one outside its range.
+  DMP_EXPORT void validate() const;
+  /// The same options with every optional one filled in; validates them.
+  DMP_EXPORT DmpOptions resolved() const;
+
+  /// The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 corrected:
   /// docs/formulation.md.
   DMP_EXPORT static DmpOptions source();
 };
+
+/// Whether all fields are equal; one that is not given differs from one that states its default.
+DMP_EXPORT bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept;
+inline bool operator!=(const DmpOptions& a, const DmpOptions& b) noexcept { return !(a == b); }
 
 }  // namespace dmp

@@ -91,7 +91,7 @@ class DMP_EXPORT OrientationRun {
   ~OrientationRun();
 
   Status step(double dt) noexcept DMP_REALTIME;
-  /// Refused (invalid_input) unless the matrix is a rotation to 1e-6.
+  /// Refused (invalid_input) unless so3::is_rotation; the nearest rotation is taken.
   Status set_goal(const Eigen::Matrix3d& goal) noexcept DMP_REALTIME;
   Status set_duration(double duration) noexcept DMP_REALTIME;
   /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.

@@ -71,7 +71,8 @@ class DMP_EXPORT PoseRun {
   ~PoseRun();
 
   Status step(double dt) noexcept DMP_REALTIME;
-  /// Refused (invalid_input) unless finite, with a rotation (to 1e-6) and the last row 0 0 0 1.
+  /// Refused (invalid_input) unless finite, with a rotation (so3::is_rotation; the nearest is taken)
+  /// and the last row 0 0 0 1.
   Status set_goal(const Eigen::Matrix4d& goal) noexcept DMP_REALTIME;
   Status set_duration(double duration) noexcept DMP_REALTIME;
   /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.

@@ -56,4 +56,9 @@ DMP_EXPORT void require_rotation(const Eigen::Matrix3d& r, const std::string& na
 /// The rotation nearest to r (polar decomposition), for one that require_rotation lets pass.
 DMP_EXPORT Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& r);
 
+/// The rotation nearest to all of them, in the sense of least squares of their matrices (chordal mean:
+/// Hartley et al. 2013, "Rotation averaging", section 5.3). One alone is its own mean, to the last bit.
+/// Throws InvalidArgument for none.
+DMP_EXPORT Eigen::Matrix3d mean_rotation(const Rotations& rotations);
+
 }  // namespace dmp::so3

@@ -2,7 +2,7 @@
 
 #include <dmp/arm.hpp>
 #include <dmp/export.hpp>
-#include <dmp/path_tracking.hpp>
+#include <dmp/joint_trajectory.hpp>
 
 #include <Eigen/Core>
 

@@ -258,4 +258,14 @@ Matrix3d nearest_rotation(const Matrix3d& r) {
   return 0.5 * q * (3.0 * Matrix3d::Identity() - q.transpose() * q);
 }
 
+Matrix3d mean_rotation(const Rotations& rotations) {
+  if (rotations.empty()) throw InvalidArgument("rotations: none, expected at least one.");
+  if (rotations.size() == 1) return rotations[0];
+  Matrix3d sum = Matrix3d::Zero();
+  for (const Matrix3d& rotation : rotations) sum += rotation;
+  const Eigen::JacobiSVD<Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+}
+
 }  // namespace dmp::so3

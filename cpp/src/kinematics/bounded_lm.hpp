@@ -2,8 +2,8 @@
 
 #include <kdl/chainiksolver.hpp>
 
-#include "robot/flat_chain.hpp"
 #include "kinematics/pose_goal.hpp"
+#include "robot/flat_chain.hpp"
 
 namespace dmp::detail {
 

@@ -1,6 +1,6 @@
 #include "kinematics/calming.hpp"
 
-#include <dmp/path_tracking.hpp>
+#include <dmp/joint_trajectory.hpp>
 
 namespace dmp::detail {
 namespace {

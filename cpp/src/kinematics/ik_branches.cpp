@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "robot/checks.hpp"
+#include "geometry/pose.hpp"
 #include "kinematics/ik_search.hpp"
 #include "kinematics/random.hpp"
+#include "robot/checks.hpp"
 
 namespace dmp {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr int iterations_each = 100;
 
 detail::Frame checked_target(const Eigen::Matrix4d& pose) {
-  if (!detail::is_rigid(pose))
+  if (!detail::is_pose(pose))
     throw InvalidArgument("pose: expected a finite [R p; 0 1] with R orthonormal to 1e-3 and det(R) = +1.");
   return detail::rigid_frame(pose);
 }

@@ -3,9 +3,10 @@
 
 #include <array>
 
-#include "robot/checks.hpp"
+#include "geometry/pose.hpp"
 #include "kinematics/ik_solver.hpp"
 #include "kinematics/singularity.hpp"
+#include "robot/checks.hpp"
 
 namespace dmp {
 namespace {
@@ -98,7 +99,7 @@ const IkOptions& InverseKinematics::options() const { return solver_->options; }
 Eigen::VectorXd InverseKinematics::middle() const { return solver_->search.range().middle(); }
 
 IkResult InverseKinematics::solve(const Eigen::Matrix4d& pose, const Eigen::VectorXd& seed) {
-  if (!detail::is_rigid(pose) || seed.size() != arm().joint_count() || !seed.allFinite()) {
+  if (!detail::is_pose(pose) || seed.size() != arm().joint_count() || !seed.allFinite()) {
     IkResult refused;
     refused.joints = middle();
     return refused;

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string>
 
-#include "robot/checks.hpp"
-#include "robot/kdl_forward.hpp"
+#include "geometry/pose.hpp"
 #include "kinematics/path_tracker.hpp"
 #include "kinematics/pose_error.hpp"
 #include "kinematics/singularity.hpp"
+#include "robot/checks.hpp"
+#include "robot/kdl_forward.hpp"
 
 namespace dmp {
 namespace {
@@ -83,7 +84,7 @@ JointTracker::~JointTracker() = default;
 
 IkStatus JointTracker::track(const Eigen::Matrix4d& pose, double dt) noexcept {
   State& s = *state_;
-  if (!(dt > 0.0) || !std::isfinite(dt) || !detail::is_rigid(pose)) return IkStatus::invalid_input;
+  if (!(dt > 0.0) || !std::isfinite(dt) || !detail::is_pose(pose)) return IkStatus::invalid_input;
   const detail::Frame target = detail::rigid_frame(pose);
   const detail::Joints step = s.arm.velocity_limit() * dt;
   const detail::Descent next = s.tracker.advance(s.at, target, step, s.velocity * dt, s.pull);

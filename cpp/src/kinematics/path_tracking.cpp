@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "robot/checks.hpp"
+#include "geometry/pose.hpp"
 #include "kinematics/ik_solver.hpp"
-#include "kinematics/joint_spline.hpp"
 #include "kinematics/route_search.hpp"
+#include "robot/checks.hpp"
 
 namespace dmp {
 namespace {
@@ -18,25 +17,16 @@ std::string at(const char* name, Eigen::Index k) {
   return std::string(name) + "[" + std::to_string(k) + "]: ";
 }
 
-void check_times(const Eigen::VectorXd& times) {
-  for (Eigen::Index k = 0; k < times.size(); ++k) {
-    if (!std::isfinite(times[k])) throw InvalidArgument(at("times", k) + "not finite.");
-    if (k > 0 && !(times[k] > times[k - 1]))
-      throw InvalidArgument(at("times", k) + std::to_string(times[k]) + " does not come after " +
-                            std::to_string(times[k - 1]) + "; expected seconds that increase.");
-  }
-}
-
 void check_path(const Eigen::VectorXd& times, const Poses& poses) {
   if (poses.empty()) throw InvalidArgument("poses: empty, expected at least one.");
   if (times.size() != static_cast<Eigen::Index>(poses.size()))
     throw InvalidArgument("times: " + std::to_string(times.size()) + " values, expected " +
                           std::to_string(poses.size()) + ", one for each pose.");
-  check_times(times);
+  detail::check_times(times);
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     const Eigen::Matrix4d& pose = poses[static_cast<std::size_t>(k)];
     if (!pose.allFinite()) throw InvalidArgument(at("poses", k) + "not finite.");
-    if (!detail::is_rigid(pose))
+    if (!detail::is_pose(pose))
       throw InvalidArgument(at("poses", k) +
                             "det(R) = " + std::to_string(pose.topLeftCorner<3, 3>().determinant()) +
                             ", expected [R p; 0 1] with R orthonormal to 1e-3 and det(R) = +1.");
@@ -130,35 +120,6 @@ PathReport InverseKinematics::Solver::report(const detail::TargetPath& path, con
   report.velocity_ratio = route.velocity_ratio;
   report.limit_margin = route.margin;
   return report;
-}
-
-std::string PathReport::summary() const {
-  char text[200];
-  std::snprintf(text, sizeof text, "%td of %zu poses met; largest error %.3g mm, %.3g deg", solved,
-                status.size(), 1e3 * position_error.maxCoeff(), 57.29577951308232 * angle_error.maxCoeff());
-  std::string line = text;
-  for (const auto& run : missed)
-    line += (run == missed.front() ? "; missed: " : ", ") + std::to_string(run.first) + "-" +
-            std::to_string(run.second) + " (" + name_of(status[static_cast<std::size_t>(run.first)]) + ")";
-  return line;
-}
-
-JointTrajectory JointTrajectory::through(const Eigen::VectorXd& times, const RowMatrix& positions,
-                                         const std::vector<std::string>& joint_names, SplineEnds ends) {
-  if (positions.rows() != times.size() || times.size() == 0)
-    throw InvalidArgument("positions: " + std::to_string(positions.rows()) + " rows, expected " +
-                          std::to_string(times.size()) + ", one for each time, and at least one.");
-  check_times(times);
-  for (Eigen::Index k = 0; k < positions.rows(); ++k)
-    if (!positions.row(k).allFinite()) throw InvalidArgument(at("positions", k) + "not finite.");
-  JointTrajectory joints;
-  joints.time = times;
-  joints.position = positions;
-  joints.joint_names = joint_names;
-  detail::differentiate(joints, ends);
-  if (!joints.velocity.allFinite() || !joints.acceleration.allFinite())
-    throw InvalidArgument("positions: so large, or times so close, that the velocities overflow.");
-  return joints;
 }
 
 JointTrajectory InverseKinematics::follow(const Eigen::VectorXd& times, const Poses& poses,

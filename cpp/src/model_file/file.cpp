@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "model_file/model_json.hpp"
 #include "base/text_file.hpp"
+#include "model_file/model_json.hpp"
 
 namespace dmp {
 namespace {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <string>
 
-#include "primitive/learning.hpp"
-
 namespace dmp {
 namespace {
 
@@ -59,7 +57,7 @@ PoseSpread spread(const std::vector<PoseDemonstration>& demonstrations, Index co
   for (Index k = 0; k < count; ++k) {
     Rotations here;
     for (const Rotations& path : rotations) here.push_back(path[static_cast<std::size_t>(k)]);
-    const Eigen::Matrix3d middle = detail::mean_rotation(here);
+    const Eigen::Matrix3d middle = so3::mean_rotation(here);
     for (std::size_t j = 0; j < here.size(); ++j) {
       const double time = result.phase[k] * demonstrations[j].duration();
       const RowMatrix position = positions[j].at(Eigen::VectorXd::Constant(1, time)).position;

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "primitive/learning.hpp"
 #include "model_file/model_json.hpp"
+#include "primitive/learning.hpp"
 
 namespace dmp {
 namespace {
@@ -81,8 +81,8 @@ OrientationDmp average(const std::vector<OrientationDmp>& models) {
     goals.push_back(p.goal);
   }
   mean.start_velocity /= mean.duration;
-  mean.start = detail::mean_rotation(starts);
-  mean.goal = detail::mean_rotation(goals);
+  mean.start = so3::mean_rotation(starts);
+  mean.goal = so3::mean_rotation(goals);
   mean.start_error = error_between(mean.start, mean.goal, models[0].parameters().start_error);
   return OrientationDmp(mean);
 }
@@ -110,8 +110,8 @@ PoseDmp average(const std::vector<PoseDmp>& models) {
     goals.push_back(p.goal.topLeftCorner<3, 3>());
   }
   mean.start_twist /= mean.duration;
-  mean.start = pose_of(detail::mean_rotation(starts), start);
-  mean.goal = pose_of(detail::mean_rotation(goals), goal);
+  mean.start = pose_of(so3::mean_rotation(starts), start);
+  mean.goal = pose_of(so3::mean_rotation(goals), goal);
   mean.start_error = error_between(mean.start.topLeftCorner<3, 3>(), mean.goal.topLeftCorner<3, 3>(),
                                    models[0].parameters().start_error);
   return PoseDmp(mean);

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "base/text.hpp"
 #include "primitive/forcing_fit.hpp"
 #include "primitive/rollout.hpp"
-#include "base/text.hpp"
 
 namespace dmp {
 

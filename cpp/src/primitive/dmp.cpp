@@ -28,7 +28,7 @@ namespace {
 
 DmpParameters checked(const DmpParameters& given) {
   DmpParameters parameters = given;
-  parameters.options = detail::resolved(given.options);
+  parameters.options = given.options.resolved();
   const Index dimension = given.start.size();
   if (dimension == 0) throw InvalidArgument("start: empty, expected at least one dimension.");
   detail::require_duration(given.duration);
@@ -73,7 +73,7 @@ Dmp Dmp::fit(const std::vector<Demonstration>& demonstrations, const DmpOptions&
 Dmp Dmp::fit_together(const Demonstration* demonstrations, std::size_t count, const DmpOptions& options,
                       std::unique_ptr<detail::ForcingFit>& memory) {
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
-  const DmpOptions resolved = detail::resolved(options);
+  const DmpOptions resolved = options.resolved();
   std::vector<detail::PositionLesson> lessons;
   for (std::size_t j = 0; j < count; ++j) {
     if (demonstrations[j].dimension() != demonstrations[0].dimension())

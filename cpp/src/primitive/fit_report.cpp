@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "primitive/learning.hpp"
 #include "base/text.hpp"
+#include "primitive/learning.hpp"
 
 namespace dmp {
 namespace {

@@ -4,14 +4,13 @@
 #include <dmp/so3.hpp>
 #include <dmp/spline.hpp>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "primitive/forcing_scale.hpp"
 #include "base/text.hpp"
+#include "primitive/forcing_scale.hpp"
 
 namespace dmp::detail {
 namespace {
@@ -19,43 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-void require_positive(double value, const char* name) {
-  if (!(std::isfinite(value) && value > 0.0))
-    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
-                          ", expected a positive number.");
-}
-
-void require_not_negative(double value, const char* name) {
-  if (!(std::isfinite(value) && value >= 0.0))
-    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
-                          ", expected 0 or a positive number.");
-}
-
-/// What bounds the internal steps of a run, and so its cost.
-void require_at_most(double value, double most, const char* name) {
-  if (value > most)
-    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected at most " +
-                          number(most) + ".");
-}
-
-template <class Enum>
-void require_enumerator(Enum value, Enum last, const char* name) {
-  if (static_cast<int>(value) < 0 || value > last)
-    throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(static_cast<int>(value)) +
-                          " is none of its enumerators.");
-}
-
-void require_enumerators(const DmpOptions& o) {
-  require_enumerator(o.kernels, Kernels::source, "kernels");
-  require_enumerator(o.regression, Regression::ridge, "regression");
-  require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
-  require_enumerator(o.orientation_form, OrientationForm::log_linear, "orientation_form");
-  require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
-  require_enumerator(o.derivatives, Derivatives::gradient, "derivatives");
-  require_enumerator(o.start, Start::rest, "start");
-  require_enumerator(o.integrator, Integrator::semi_implicit_euler, "integrator");
-}
 
 VectorXd range(const RowMatrix& values) { return values.colwise().maxCoeff() - values.colwise().minCoeff(); }
 
@@ -153,37 +115,6 @@ void keep_spring_only(Velocity& start, ForcingTarget& target) {
 
 }  // namespace
 
-DmpOptions resolved(const DmpOptions& options) {
-  DmpOptions result = options;
-  require_enumerators(options);
-  if (options.basis_count < 1 || options.basis_count > 100000)
-    throw InvalidArgument("options.basis_count: " + std::to_string(options.basis_count) +
-                          ", expected 1 to 100000 kernels.");
-  if (options.passes < 1 || options.passes > 10000)
-    throw InvalidArgument("options.passes: " + std::to_string(options.passes) + ", expected 1 to 10000.");
-  result.beta = options.beta.value_or(options.alpha / 4.0);
-  result.orientation_alpha = options.orientation_alpha.value_or(options.alpha);
-  result.orientation_beta = options.orientation_beta.value_or(
-      options.orientation_alpha ? *options.orientation_alpha / 4.0 : *result.beta);
-  result.overlap = options.overlap.value_or(options.regression == Regression::lwr ? std::log(2.0) : 0.2);
-  require_at_most(result.alpha, 1e4, "alpha");
-  require_at_most(*result.orientation_alpha, 1e4, "orientation_alpha");
-  require_at_most(result.goal_filter, 1e4, "goal_filter");
-  require_at_most(result.alpha_x, 50.0, "alpha_x");
-  require_positive(result.alpha, "alpha");
-  require_positive(*result.beta, "beta");
-  require_positive(*result.orientation_alpha, "orientation_alpha");
-  require_positive(*result.orientation_beta, "orientation_beta");
-  require_positive(result.alpha_x, "alpha_x");
-  require_positive(*result.overlap, "overlap");
-  require_at_most(*result.overlap, 300.0, "overlap");
-  require_not_negative(result.ridge, "ridge");
-  require_not_negative(result.goal_filter, "goal_filter");
-  require_not_negative(result.tempo_filter, "tempo_filter");
-  require_not_negative(result.phase_stop, "phase_stop");
-  return result;
-}
-
 double largest_log(const OrientationDemonstration& demonstration, LogBranch branch) {
   return errors_to_goal(demonstration.rotation(), branch).rowwise().norm().maxCoeff();
 }
@@ -267,14 +198,6 @@ void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacem
   for (Index k = 0; k < target.value.rows(); ++k) back.apply(target.value.row(k).data() + first);
   target.value.middleCols(first, axes) *= dilation;  // back.apply divided by it
   target.scale.segment(first, axes).setConstant(dilation);
-}
-
-Eigen::Matrix3d mean_rotation(const Rotations& rotations) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Eigen::Matrix3d& rotation : rotations) sum += rotation;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
-  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace dmp::detail

@@ -9,9 +9,6 @@
 
 namespace dmp::detail {
 
-/// Options with every optional one filled in. Throws InvalidArgument for one outside its range.
-DmpOptions resolved(const DmpOptions& options);
-
 /// The largest |Log(Rg R^T)| on the way, rad.
 double largest_log(const OrientationDemonstration& demonstration, LogBranch branch);
 
@@ -54,8 +51,5 @@ OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const
 void apply_scaling(ForcingTarget& target, Eigen::Index first, const Eigen::VectorXd& displacement,
                    const Eigen::VectorXd& reference, const Eigen::VectorXd& amplitude,
                    const DmpOptions& options);
-
-/// The rotation nearest to all of them (chordal mean; Hartley et al. 2013, "Rotation averaging").
-Eigen::Matrix3d mean_rotation(const Rotations& rotations);
 
 }  // namespace dmp::detail

@@ -1,6 +1,101 @@
+#include <dmp/error.hpp>
 #include <dmp/options.hpp>
 
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "base/text.hpp"
+
 namespace dmp {
+namespace {
+
+using detail::number;
+
+void require_positive(double value, const char* name) {
+  if (!(std::isfinite(value) && value > 0.0))
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
+                          ", expected a positive number.");
+}
+
+void require_not_negative(double value, const char* name) {
+  if (!(std::isfinite(value) && value >= 0.0))
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) +
+                          ", expected 0 or a positive number.");
+}
+
+/// What bounds the internal steps of a run, and so its cost.
+void require_at_most(double value, double most, const char* name) {
+  if (value > most)
+    throw InvalidArgument(std::string("options.") + name + ": " + number(value) + ", expected at most " +
+                          number(most) + ".");
+}
+
+template <class Enum>
+void require_enumerator(Enum value, Enum last, const char* name) {
+  if (static_cast<int>(value) < 0 || value > last)
+    throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(static_cast<int>(value)) +
+                          " is none of its enumerators.");
+}
+
+void require_enumerators(const DmpOptions& o) {
+  require_enumerator(o.kernels, Kernels::source, "kernels");
+  require_enumerator(o.regression, Regression::ridge, "regression");
+  require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
+  require_enumerator(o.orientation_form, OrientationForm::log_linear, "orientation_form");
+  require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
+  require_enumerator(o.derivatives, Derivatives::gradient, "derivatives");
+  require_enumerator(o.start, Start::rest, "start");
+  require_enumerator(o.integrator, Integrator::semi_implicit_euler, "integrator");
+}
+
+void require_whole(int value, int most, const char* name, const char* of) {
+  if (value < 1 || value > most)
+    throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(value) + ", expected 1 to " +
+                          std::to_string(most) + of + ".");
+}
+
+/// Every field, in the order of the declaration.
+auto fields(const DmpOptions& o) noexcept {
+  return std::tie(o.basis_count, o.alpha, o.beta, o.orientation_alpha, o.orientation_beta, o.alpha_x,
+                  o.kernels, o.overlap, o.regression, o.passes, o.ridge, o.scaling, o.orientation_form,
+                  o.log_branch, o.derivatives, o.start, o.integrator, o.force_after_end, o.goal_filter,
+                  o.tempo_filter, o.phase_stop);
+}
+
+}  // namespace
+
+bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept { return fields(a) == fields(b); }
+
+void DmpOptions::validate() const { resolved(); }
+
+DmpOptions DmpOptions::resolved() const {
+  DmpOptions result = *this;
+  require_enumerators(*this);
+  require_whole(basis_count, 100000, "basis_count", " kernels");
+  require_whole(passes, 10000, "passes", "");
+  result.beta = beta.value_or(alpha / 4.0);
+  result.orientation_alpha = orientation_alpha.value_or(alpha);
+  result.orientation_beta =
+      orientation_beta.value_or(orientation_alpha ? *orientation_alpha / 4.0 : *result.beta);
+  result.overlap = overlap.value_or(regression == Regression::lwr ? std::log(2.0) : 0.2);
+  require_at_most(result.alpha, 1e4, "alpha");
+  require_at_most(*result.orientation_alpha, 1e4, "orientation_alpha");
+  require_at_most(result.goal_filter, 1e4, "goal_filter");
+  require_at_most(result.alpha_x, 50.0, "alpha_x");
+  require_positive(result.alpha, "alpha");
+  require_positive(*result.beta, "beta");
+  require_positive(*result.orientation_alpha, "orientation_alpha");
+  require_positive(*result.orientation_beta, "orientation_beta");
+  require_positive(result.alpha_x, "alpha_x");
+  require_positive(*result.overlap, "overlap");
+  require_at_most(*result.overlap, 300.0, "overlap");
+  require_not_negative(result.ridge, "ridge");
+  require_not_negative(result.goal_filter, "goal_filter");
+  require_not_negative(result.tempo_filter, "tempo_filter");
+  require_not_negative(result.phase_stop, "phase_stop");
+  return result;
+}
 
 DmpOptions DmpOptions::source() {
   DmpOptions options;

@@ -32,12 +32,12 @@ namespace {
 
 OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   OrientationDmpParameters parameters = given;
-  parameters.options = detail::resolved(given.options);
+  parameters.options = given.options.resolved();
   detail::require_duration(given.duration);
   so3::require_rotation(given.start, "start");
   so3::require_rotation(given.goal, "goal");
-  parameters.start = detail::exact(given.start);
-  parameters.goal = detail::exact(given.goal);
+  parameters.start = detail::projected(given.start);
+  parameters.goal = detail::projected(given.goal);
   detail::require_finite(given.start_velocity, 3, "start_velocity");
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 3, "amplitude");
@@ -63,8 +63,8 @@ OrientationDmpParameters means_of(const OrientationDemonstration* demonstrations
     goals.push_back(lessons[j].goal);
   }
   mean.start_velocity /= mean.duration;
-  mean.start = lessons.size() == 1 ? starts[0] : detail::mean_rotation(starts);
-  mean.goal = lessons.size() == 1 ? goals[0] : detail::mean_rotation(goals);
+  mean.start = so3::mean_rotation(starts);
+  mean.goal = so3::mean_rotation(goals);
   const Quaterniond turn = Quaterniond(mean.goal) * Quaterniond(mean.start).conjugate();
   mean.start_error = options.log_branch == LogBranch::lifted ? so3::lifted_log(turn, lessons[0].start_error)
                                                              : so3::log(turn);
@@ -88,7 +88,7 @@ OrientationDmp OrientationDmp::fit_together(const OrientationDemonstration* demo
                                             const DmpOptions& options,
                                             std::unique_ptr<detail::ForcingFit>& memory) {
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
-  DmpOptions resolved = detail::resolved(options);
+  DmpOptions resolved = options.resolved();
   resolved.orientation_form = detail::form_for(resolved, demonstrations[0]);
   std::vector<detail::OrientationLesson> lessons;
   for (std::size_t j = 0; j < count; ++j) lessons.push_back(detail::lesson_of(demonstrations[j], resolved));
@@ -139,7 +139,7 @@ OrientationTrajectory OrientationDmp::roll_out(const detail::Timetable& timetabl
   }
   if (goal) {
     so3::require_rotation(*goal, "goal");
-    runner.motion().start_with_goal(Quaterniond(*goal).normalized());
+    runner.motion().start_with_goal(detail::unit_quaternion(*goal));
   }
   runner.publish();
   OrientationTrajectory result{times, {}, RowMatrix(times.size(), 3), RowMatrix(times.size(), 3)};
@@ -172,8 +172,8 @@ OrientationRun::~OrientationRun() = default;
 Status OrientationRun::step(double dt) noexcept { return state_->runner.step(dt); }
 
 Status OrientationRun::set_goal(const Matrix3d& goal) noexcept {
-  if (!detail::is_rotation(goal)) return Status::invalid_input;
-  const Quaterniond rotation = Quaterniond(goal).normalized();
+  if (!so3::is_rotation(goal)) return Status::invalid_input;
+  const Quaterniond rotation = detail::unit_quaternion(goal);
   if (state_->runner.at_start()) {
     state_->runner.motion().start_with_goal(rotation);
     state_->runner.publish();
@@ -194,9 +194,9 @@ void OrientationRun::resume() noexcept { state_->runner.resume(); }
 bool OrientationRun::paused() const noexcept { return state_->runner.phase().paused(); }
 
 Status OrientationRun::start_from(const Matrix3d& rotation, const Vector3d& angular_velocity) noexcept {
-  if (!detail::is_rotation(rotation) || !angular_velocity.allFinite()) return Status::invalid_input;
+  if (!so3::is_rotation(rotation) || !angular_velocity.allFinite()) return Status::invalid_input;
   state_->runner.reset_phase();
-  state_->runner.motion().begin(Quaterniond(rotation).normalized(), duration() * angular_velocity);
+  state_->runner.motion().begin(detail::unit_quaternion(rotation), duration() * angular_velocity);
   state_->runner.restart();
   return status();
 }

@@ -56,19 +56,14 @@ PoseMotion motion_of(const PoseDmpParameters& p) {
                                     z.tail<3>(), p.amplitude.tail<3>())};
 }
 
-bool is_pose(const Matrix4d& pose) noexcept {
-  return pose.allFinite() && pose.row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-         detail::is_rotation(pose.topLeftCorner<3, 3>());
-}
-
 PoseDmpParameters checked(const PoseDmpParameters& given) {
   PoseDmpParameters parameters = given;
-  parameters.options = detail::resolved(given.options);
+  parameters.options = given.options.resolved();
   detail::require_duration(given.duration);
   detail::require_pose(given.start, "start");
   detail::require_pose(given.goal, "goal");
-  parameters.start.topLeftCorner<3, 3>() = detail::exact(rotation_of(given.start));
-  parameters.goal.topLeftCorner<3, 3>() = detail::exact(rotation_of(given.goal));
+  parameters.start.topLeftCorner<3, 3>() = detail::projected(rotation_of(given.start));
+  parameters.goal.topLeftCorner<3, 3>() = detail::projected(rotation_of(given.goal));
   detail::require_finite(given.start_twist, 6, "start_twist");
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 6, "amplitude");
@@ -116,8 +111,8 @@ PoseDmpParameters means_of(const PoseDemonstration* demonstrations, const std::v
     goals.push_back(lesson.orientation.goal);
   }
   mean.start_twist /= mean.duration;
-  mean.start = pose_of(detail::mean_rotation(starts), start);
-  mean.goal = pose_of(detail::mean_rotation(goals), goal);
+  mean.start = pose_of(so3::mean_rotation(starts), start);
+  mean.goal = pose_of(so3::mean_rotation(goals), goal);
   const Quaterniond turn =
       Quaterniond(rotation_of(mean.goal)) * Quaterniond(rotation_of(mean.start)).conjugate();
   mean.start_error = options.log_branch == LogBranch::lifted
@@ -151,7 +146,7 @@ PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const
 PoseDmp PoseDmp::fit_together(const PoseDemonstration* demonstrations, std::size_t count,
                               const DmpOptions& options, std::unique_ptr<detail::ForcingFit>& memory) {
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
-  DmpOptions resolved = detail::resolved(options);
+  DmpOptions resolved = options.resolved();
   resolved.orientation_form = detail::form_for(resolved, demonstrations[0].orientation());
   std::vector<PoseLesson> lessons;
   for (std::size_t j = 0; j < count; ++j) lessons.push_back(lesson_of(demonstrations[j], resolved));
@@ -204,7 +199,7 @@ PoseTrajectory PoseDmp::roll_out(const detail::Timetable& timetable, const std::
   if (goal) {
     detail::require_pose(*goal, "goal");
     runner.motion().position.start_with_goal(position_of(*goal));
-    runner.motion().orientation.start_with_goal(Quaterniond(rotation_of(*goal)).normalized());
+    runner.motion().orientation.start_with_goal(detail::unit_quaternion(rotation_of(*goal)));
   }
   runner.publish();
   PoseTrajectory result{times, {}, RowMatrix(times.size(), 6), RowMatrix(times.size(), 6)};
@@ -234,9 +229,9 @@ PoseRun::~PoseRun() = default;
 Status PoseRun::step(double dt) noexcept { return state_->runner.step(dt); }
 
 Status PoseRun::set_goal(const Matrix4d& goal) noexcept {
-  if (!is_pose(goal)) return Status::invalid_input;
+  if (!detail::is_pose(goal)) return Status::invalid_input;
   PoseMotion& motion = state_->runner.motion();
-  const Quaterniond rotation = Quaterniond(rotation_of(goal)).normalized();
+  const Quaterniond rotation = detail::unit_quaternion(rotation_of(goal));
   if (state_->runner.at_start()) {
     motion.position.start_with_goal(goal.topRightCorner<3, 1>());
     motion.orientation.start_with_goal(rotation);
@@ -255,11 +250,11 @@ void PoseRun::resume() noexcept { state_->runner.resume(); }
 bool PoseRun::paused() const noexcept { return state_->runner.phase().paused(); }
 
 Status PoseRun::start_from(const Matrix4d& pose, const Twist& twist) noexcept {
-  if (!is_pose(pose) || !twist.allFinite()) return Status::invalid_input;
+  if (!detail::is_pose(pose) || !twist.allFinite()) return Status::invalid_input;
   state_->runner.reset_phase();
   const Twist z = duration() * twist;
   state_->runner.motion().position.begin(pose.topRightCorner<3, 1>(), z.head<3>());
-  state_->runner.motion().orientation.begin(Quaterniond(rotation_of(pose)).normalized(), z.tail<3>());
+  state_->runner.motion().orientation.begin(detail::unit_quaternion(rotation_of(pose)), z.tail<3>());
   state_->runner.restart();
   return status();
 }

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "base/text_file.hpp"
 #include "robot/checks.hpp"
 #include "robot/kdl_forward.hpp"
-#include "base/text_file.hpp"
 #include "robot/urdf_chain.hpp"
 
 namespace dmp {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dmp/path_tracking.hpp>
+#include <dmp/joint_trajectory.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
 #include <string>
 

@@ -1,18 +1,11 @@
 #include "robot/checks.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <dmp/error.hpp>
-#include <dmp/so3.hpp>
+
+#include "geometry/pose.hpp"
 
 namespace dmp::detail {
-namespace {
-
-double skewness(const Eigen::Matrix3d& r) {
-  return (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-}
-
-}  // namespace
 
 void check_positive(double value, const std::string& name) {
   if (!(value > 0.0)) throw InvalidArgument(name + ": " + std::to_string(value) + ", expected > 0.");
@@ -40,6 +33,16 @@ void check_weight(const Vector6& weight) {
     throw InvalidArgument("options.weight: two turns are free; expected none, one or all three.");
 }
 
+void check_times(const Eigen::VectorXd& times) {
+  for (Eigen::Index k = 0; k < times.size(); ++k) {
+    if (!std::isfinite(times[k])) throw InvalidArgument("times[" + std::to_string(k) + "]: " + "not finite.");
+    if (k > 0 && !(times[k] > times[k - 1]))
+      throw InvalidArgument("times[" + std::to_string(k) + "]: " + std::to_string(times[k]) +
+                            " does not come after " + std::to_string(times[k - 1]) +
+                            "; expected seconds that increase.");
+  }
+}
+
 void check_joints(const Eigen::VectorXd& q, Eigen::Index count, const std::string& name) {
   if (q.size() != count)
     throw InvalidArgument(name + ": " + std::to_string(q.size()) + " values, expected " +
@@ -57,16 +60,8 @@ void check_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::st
                             std::to_string(arm.upper()[i]) + ".");
 }
 
-bool is_rigid(const Eigen::Matrix4d& pose) {
-  const Eigen::Matrix3d r = pose.topLeftCorner<3, 3>();
-  return pose.allFinite() && skewness(r) <= 1e-3 && r.determinant() > 0.0 &&
-         pose.row(3) == Eigen::RowVector4d::Unit(3);
-}
-
 Frame rigid_frame(const Eigen::Matrix4d& pose) {
-  Frame frame = {pose.topLeftCorner<3, 3>(), pose.topRightCorner<3, 1>()};
-  if (skewness(frame.rotation) > 1e-12) frame.rotation = so3::nearest_rotation(frame.rotation);
-  return frame;
+  return {projected(pose.topLeftCorner<3, 3>()), pose.topRightCorner<3, 1>()};
 }
 
 }  // namespace dmp::detail

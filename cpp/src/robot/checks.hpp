@@ -16,14 +16,14 @@ void check_capacity(const Arm& arm);
 /// InvalidArgument unless the weights are finite and >= 0, some of them > 0, and not just two turns free.
 void check_weight(const Vector6& weight);
 
+/// InvalidArgument unless all times are finite and increase.
+void check_times(const Eigen::VectorXd& times);
 /// InvalidArgument unless q is one finite value for each of `count` joints.
 void check_joints(const Eigen::VectorXd& q, Eigen::Index count, const std::string& name);
 /// InvalidArgument unless each of n finite values lies within the arm's limits.
 void check_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::string& name);
 
-/// Finite, with R in SO(3) to 1e-3 and the last row 0 0 0 1.
-bool is_rigid(const Eigen::Matrix4d& pose);
-/// The frame of a pose that is_rigid, with the nearest rotation.
+/// The frame of a pose that is_pose accepts, with the nearest rotation.
 Frame rigid_frame(const Eigen::Matrix4d& pose);
 
 }  // namespace dmp::detail

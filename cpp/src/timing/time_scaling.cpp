@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "robot/arm_dynamics.hpp"
 #include "timing/spline_extremes.hpp"
-#include "base/text.hpp"
 
 namespace dmp {
 

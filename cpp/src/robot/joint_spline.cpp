@@ -1,4 +1,4 @@
-#include "kinematics/joint_spline.hpp"
+#include "robot/joint_spline.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <dmp/path_tracking.hpp>
+#include <dmp/joint_trajectory.hpp>
 
 namespace dmp::detail {
 
