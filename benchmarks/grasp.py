@@ -19,7 +19,7 @@ import numpy as np
 from dmpcpp import arms, grasp
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation import Cylinder, Friction, ParallelGripper
-from dmpcpp.simulation._gripper import PANDA_HAND
+from dmpcpp.simulation._objects import PANDA_HAND
 
 _SLIPPERY = Cylinder(friction=Friction(0.3, spinning=1e-3, rolling=1e-4))
 _SMOOTH_HAND = ParallelGripper(

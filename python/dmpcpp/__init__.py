@@ -18,12 +18,15 @@ _MODULES = frozenset(
     {
         "arms",
         "batch",
+        "checks",
+        "comparison",
         "doctor",
         "errors",
         "export",
         "generality",
         "grasp",
         "imitation",
+        "inspection",
         "learning",
         "metrics",
         "motion",
@@ -37,6 +40,7 @@ _MODULES = frozenset(
         "simulation",
         "teaching",
         "urdf_check",
+        "verification",
         "view",
     }
 )

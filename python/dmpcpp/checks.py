@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+
+from dmpcpp._typing import Array
+
+__all__ = ["Check", "Checked", "Series"]
+
+ROUNDING = 1e-6
+"""What a limit forgives: a motion scaled to exactly a limit meets it only to rounding and tracking."""
 
 
 @dataclass(frozen=True)
@@ -68,3 +76,39 @@ class Checked:
     def judged(self) -> dict[str, Any]:
         """For JSON: the verdict, "pass" or "fail", and the checks."""
         return {"verdict": "pass" if self.ok else "fail", "checks": [check.to_dict() for check in self.checks]}
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """A quantity over time, held against a limit where it comes closest; limits forgive ROUNDING.
+
+    Attributes
+    ----------
+    time : (N,)
+        s
+    values : (N,) or (N, n)
+    where : tuple of str
+        What the columns are, for the detail of the check.
+    """
+
+    time: Array
+    values: Array
+    where: tuple[str, ...] = ("",)
+
+    def worst(self, pick: Callable[[Array], Any]) -> tuple[float, float | None, str]:
+        """Return the value that `pick` (np.argmax, np.argmin) chooses, its time and its column."""
+        if self.values.size == 0:
+            return math.nan, None, "nothing was executed"
+        values = self.values.reshape(len(self.time), -1)
+        step, column = np.unravel_index(pick(values), values.shape)
+        return float(values[step, column]), float(self.time[step]), self.where[int(column)]
+
+    def at_most(self, name: str, limit: float, unit: str) -> Check:
+        """Return the check that no value exceeds the limit."""
+        value, time, detail = self.worst(np.argmax)
+        return Check(name, value <= limit + ROUNDING * abs(limit), value, limit, unit, time, detail)
+
+    def at_least(self, name: str, limit: float, unit: str) -> Check:
+        """Return the check that no value falls below the limit."""
+        value, time, detail = self.worst(np.argmin)
+        return Check(name, value >= limit - ROUNDING, value, limit, unit, time, detail)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from dmpcpp import metrics
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import PoseError, StageErrors
-
-Array = NDArray[np.float64]
 
 _PATH_SAMPLES = 1000  # DTW and Frechet cost the square of it
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from dmpcpp.simulation._quiet import quiet
+from dmpcpp._quiet import quiet
 
 __all__ = ["Diagnosis", "Part", "examine"]
 

@@ -20,14 +20,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.motion import LONGEST_GAP
-from dmpcpp.recordings._markers import Markers
-from dmpcpp.recordings._reader import Reader
-from dmpcpp.recordings._recording import Array, Recording
-from dmpcpp.recordings._registry import prepared
-from dmpcpp.recordings._rigid_body import of_markers
-from dmpcpp.recordings._statement import Stated
+from dmpcpp.recordings import Markers, Reader, Recording, Stated, of_markers, prepared
 
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from dmpcpp import metrics
-from dmpcpp._core import Derivatives, PoseDemonstration, PoseDmp
+from dmpcpp import metrics, motion
+from dmpcpp._core import Derivatives, DmpOptions, FitReport, PoseDemonstration, PoseDmp, assess
+from dmpcpp.checks import Check, Checked
+from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
-from dmpcpp.simulation import Check
+from dmpcpp.recordings import Recording
 
-__all__ = ["learn", "reproduction", "reproduction_checks"]
+__all__ = ["Lesson", "learn", "reproduction", "reproduction_checks", "teach"]
 
 _KERNELS = (50, 100, 200, 400, 800)  # tried in this order until the motion is reproduced
 _GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, math.radians(0.1)  # m, rad RMSE; below that more kernels are no use
@@ -147,3 +151,98 @@ def _miss(errors: StageErrors, noise: Noise) -> float:
     position = max(_GOOD_POSITION, _GOOD_NOISE * noise.position)
     angle = max(_GOOD_ANGLE, _GOOD_NOISE * noise.angle)
     return max(errors.position_rmse / position, errors.angle_rmse / angle)
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson(Checked):
+    """A model and what it was learned from.
+
+    Attributes
+    ----------
+    recordings : tuple of Recording
+    demonstrations : tuple of PoseDemonstration
+    model : PoseDmp
+    fit : FitReport
+    noise : tuple of Noise
+        Found in each recording.
+    checks : tuple of Check
+        Whether a single recording is reproduced; empty where several were learned together, which no model can
+        reproduce all.
+    """
+
+    recordings: tuple[Recording, ...]
+    demonstrations: tuple[PoseDemonstration, ...]
+    model: PoseDmp
+    fit: FitReport
+    noise: tuple[Noise, ...]
+    checks: tuple[Check, ...]
+
+    def summary(self) -> dict[str, Any]:
+        """Return what `dmpcpp fit --json` prints; m, rad, s."""
+        return {
+            **self.judged(),
+            "basis_count": self.model.options.basis_count,
+            "duration": self.model.duration,
+            "start": self.model.start.tolist(),
+            "goal": self.model.goal.tolist(),
+            "fit": {
+                "rmse": self.fit.rmse.tolist(),
+                "largest": self.fit.largest.tolist(),
+                "suggested_basis_count": self.fit.suggested_basis_count,
+                "warnings": list(self.fit.warnings),
+            },
+            "recordings": [
+                {
+                    "source": recording.source,
+                    "body": recording.body,
+                    "samples": len(recording),
+                    "duration": recording.duration,
+                    "noise": {"position": noise.position, "angle": noise.angle},
+                    "history": list(recording.history),
+                }
+                for recording, noise in zip(self.recordings, self.noise, strict=True)
+            ],
+        }
+
+
+def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, smooth: bool = True) -> Lesson:
+    """Learn one recording, or several of one motion together.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        At least one; all in one frame.
+    basis_count : int, optional
+        Kernels; by default as many as each recording alone needs, the most of them.
+    smooth : bool
+        Whether noise that is found may be smoothed out.
+
+    Raises
+    ------
+    InvalidArgument
+        There is none, or one that can not be learned or is no motion of a hand (`motion.plausible`).
+    """
+    if not recordings:
+        raise InvalidArgument("recordings: none, expected at least one.")
+    kept = tuple(motion.plausible(motion.continuous(recording)) for recording in recordings)
+    demonstrations = tuple(map(motion.demonstration, kept))
+    noise = tuple(map(motion.noise, kept))
+    alone = [
+        learn(demonstration, basis_count, noise=found, smooth=smooth)
+        for demonstration, found in zip(demonstrations, noise, strict=True)
+    ]
+    if len(alone) == 1:
+        model, checks = alone[0], reproduction_checks(reproduction(alone[0], demonstrations[0]), noise[0])
+    else:
+        model, checks = PoseDmp.fit(list(demonstrations), _options_of(alone)), ()
+    return Lesson(kept, demonstrations, model, assess(model, list(demonstrations)), noise, tuple(checks))
+
+
+def _options_of(models: Sequence[PoseDmp]) -> DmpOptions:
+    """Return the options with which motions are learned together that were learned alone: those of the most kernels,
+    and smoothed if any of them had to be.
+    """
+    options = max(models, key=lambda model: model.options.basis_count).options
+    if any(model.options.derivatives == Derivatives.smooth for model in models):
+        options.derivatives = Derivatives.smooth
+    return options

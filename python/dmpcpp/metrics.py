@@ -9,13 +9,12 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import trapezoid
 
 from dmpcpp import _core
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 from dmpcpp import arms, export, imitation, retarget
 from dmpcpp.cli import main
-from dmpcpp.cli._placing import placing_options, taken_placing
+from dmpcpp.cli._options import placing_options, taken_placing
 from dmpcpp.errors import InvalidArgument
 from scipy.spatial.transform import Rotation
 

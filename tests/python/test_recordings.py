@@ -174,7 +174,7 @@ def test_fifteen_clips_ship_with_pybullet_and_an_unknown_name_lists_them(clips):
 
 
 def test_without_pybullet_the_error_says_what_to_install(monkeypatch):
-    monkeypatch.setattr("dmpcpp.recordings._formats.clips.find_spec", lambda name: None)
+    monkeypatch.setattr("dmpcpp.recordings._formats.deepmimic.find_spec", lambda name: None)
     with pytest.raises(MissingDependency, match=r'pip install "dmpcpp\[sim\]"'):
         recordings.clip("dance_b")
 

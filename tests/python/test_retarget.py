@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from dmpcpp import motion, recordings
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.planning._following import to_follow
+from dmpcpp.planning._placement import to_follow
 from dmpcpp.recordings import Recording
 from dmpcpp.retarget import Placement, place
 from hypothesis import given

@@ -13,10 +13,9 @@ from dmpcpp.cli._group import main
 from dmpcpp.cli._imitation import demo, imitate
 from dmpcpp.cli._inspection import inspect
 from dmpcpp.cli._learning import fit, plan
-from dmpcpp.cli._report import report
 from dmpcpp.cli._reproduction import reproduce
+from dmpcpp.cli._show import report, view
 from dmpcpp.cli._verification import verify
-from dmpcpp.cli._view import view
 
 __all__ = ["main"]
 

@@ -14,9 +14,7 @@ import click
 
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
-from dmpcpp.cli._options import arm_options
-from dmpcpp.cli._placing import scale_range
-from dmpcpp.cli._preparation import preparation_options, taken_preparation
+from dmpcpp.cli._options import arm_options, preparation_options, scale_range, taken_preparation
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 
 if TYPE_CHECKING:
@@ -130,7 +128,7 @@ def _print(outcomes: list[Outcome], out: Path) -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    from dmpcpp.trials.batch._table import first_line
+    from dmpcpp.trials.batch import first_line
 
     console = Console(highlight=False)
     table = Table(title="recordings", title_justify="left")

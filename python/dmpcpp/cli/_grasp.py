@@ -80,7 +80,7 @@ def grasp(
     Example: dmpcpp grasp --x 0.45 --y 0.1 --video grasp.mp4
     """
     from dmpcpp import grasp as task
-    from dmpcpp.grasp._film import film, refuse_format
+    from dmpcpp.grasp import film, refuse_format
     from dmpcpp.robot import arms
 
     if video:

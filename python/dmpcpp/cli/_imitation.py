@@ -13,9 +13,7 @@ import click
 
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
-from dmpcpp.cli._options import arm_options
-from dmpcpp.cli._placing import placing_options, taken_placing
-from dmpcpp.cli._preparation import preparation_options, taken_preparation
+from dmpcpp.cli._options import arm_options, placing_options, preparation_options, taken_placing, taken_preparation
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import checks_table, note_style, way
 from dmpcpp.errors import MissingDependency

@@ -10,21 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp._typing import Array
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
-from dmpcpp.cli._options import arm_options
-from dmpcpp.cli._placing import scale_range
-from dmpcpp.cli._preparation import preparation_options, taken_preparation
+from dmpcpp.cli._options import arm_options, preparation_options, scale_range, taken_preparation
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import checks_table, note_style, way
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from dmpcpp.learning import Lesson
     from dmpcpp.planning import JointPlan
-    from dmpcpp.teaching import Lesson
 
 
 @click.command()
@@ -66,7 +62,8 @@ def fit(
 
     Example: dmpcpp fit reach.bvh --body RightHand --unit cm --arm panda --out reach.json
     """
-    from dmpcpp import motion, recordings, save, teaching
+    from dmpcpp import motion, planning, recordings, save
+    from dmpcpp.learning import teach
     from dmpcpp.robot import arms
 
     refuse_file(out.parent)
@@ -74,10 +71,10 @@ def fit(
     stated = taken_recording(options)
     found = [motion.prepare(recordings.load(file, **stated), preparation) for file in files]
     if arm is not None:
-        found = teaching.placed(found, arms.load(arm, base, tip), scale=scale_range(scale), seed=seed)
+        found = planning.placed(found, arms.load(arm, base, tip), scale=scale_range(scale), seed=seed)
     elif base or tip or scale:
         raise InvalidArgument("--base, --tip, --scale: without --arm they say nothing. State --arm too.")
-    lesson = teaching.teach(found, basis_count=basis_count, smooth=smooth)
+    lesson = teach(found, basis_count=basis_count, smooth=smooth)
     out.parent.mkdir(parents=True, exist_ok=True)
     save(lesson.model, out)
     save_config(out.with_name(f"{out.stem}.config.toml"))
@@ -201,7 +198,7 @@ def _print_plan(found: JointPlan, out: Path) -> None:
         console.print(f"no joints.csv: nothing for a robot while checks fail: {failed}", markup=False, soft_wrap=True)
 
 
-def _goal(text: str | None, model: Any) -> NDArray[np.float64] | None:
+def _goal(text: str | None, model: Any) -> Array | None:
     """Return the pose (4, 4): three numbers keep the demonstrated rotation."""
     if text is None:
         return None

@@ -3,8 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from dmpcpp.motion import Preparation
+from functools import partial
+
+from dmpcpp.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 def arm_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -27,3 +37,184 @@ def arm_options(command: Callable[..., None]) -> Callable[..., None]:
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options to a command; `taken_preparation` takes them out of its arguments."""
+    options = (
+        click.option("--start", type=float, default=0.0, metavar="S", help="Use the motion from here [s]."),
+        click.option("--end", type=float, metavar="S", help="Use the motion up to here [s]."),
+        click.option(
+            "--longest-gap",
+            type=click.FloatRange(0, min_open=True),
+            default=0.2,
+            show_default=True,
+            metavar="S",
+            help="Fill gaps in the recording up to this long [s]; refuse longer ones.",
+        ),
+        click.option("--keep-outliers", is_flag=True, help="Do not replace samples far from where they should be."),
+        click.option(
+            "--segment",
+            type=click.IntRange(1),
+            metavar="K",
+            help="Use the K-th part between rests only, counted from 1.",
+        ),
+        click.option(
+            "--repetition",
+            type=click.IntRange(1),
+            metavar="K",
+            help="Use the K-th whole cycle (away from where the hand starts and back) only, counted from 1.",
+        ),
+        click.option(
+            "--resample", type=click.FloatRange(0, min_open=True), metavar="HZ", help="Sample at this even rate."
+        ),
+        click.option(
+            "--low-pass",
+            type=click.FloatRange(0, min_open=True),
+            metavar="HZ",
+            help="Remove what is faster (zero-phase Butterworth).",
+        ),
+        click.option(
+            "--smooth/--no-smooth",
+            default=None,
+            help="Take the noise out that is found in the recording, or never do; by default where it is learned and "
+            "needs it.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def taken_preparation(options: dict[str, Any]) -> tuple[Preparation, bool]:
+    """Take the options out of a command's arguments: the preparation, and whether learning may smooth."""
+    from dmpcpp.motion import Preparation
+
+    smooth: bool | None = options.pop("smooth")
+    taken = {name: options.pop(name) for name in _FIELDS}
+    keep_outliers: bool = options.pop("keep_outliers")
+    return Preparation(**taken, outliers=not keep_outliers, smooth=smooth is True), smooth is not False
+
+
+_FIELDS = ("start", "end", "longest_gap", "segment", "repetition", "resample", "low_pass")
+
+
+_SCALE = (0.25, 1.0)
+_ANCHORS = ("anchor_start", "anchor_goal", "anchor_shoulder")
+_POINT, _POSE = "X,Y,Z", "X,Y,Z[,RX,RY,RZ]"
+
+
+def placing_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options to a command; `taken_placing` takes them out of its arguments."""
+    options = (
+        click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame."),
+        click.option(
+            "--scale",
+            metavar="S|MIN:MAX",
+            help="Scale of positions in the arm's workspace, or its range; 0.25:1 unless given.",
+        ),
+        click.option(
+            "--anchor-start",
+            metavar=_POSE,
+            help="Where the motion begins [m, arm's base frame]; with a rotation vector [deg] the tool's orientation "
+            "there too.",
+        ),
+        click.option("--anchor-goal", metavar=_POSE, help="Where it ends, likewise."),
+        click.option(
+            "--anchor-shoulder",
+            metavar=_POINT,
+            help="Where the person's shoulder comes to lie [m, arm's base frame]; needs --shoulder.",
+        ),
+        click.option("--shoulder", metavar=_POINT, help="Where it is in the recording [m]."),
+        click.option("--yaw", type=float, metavar="DEG", help="Turn of an anchored motion; searched unless given."),
+        click.option(
+            "--tool-rotation",
+            metavar="RX,RY,RZ",
+            help="Rotation vector [deg] of the tool in the hand of an anchored motion; searched unless given.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
+    """Take the options out of a command's arguments: `place` and `scale` of `imitation.imitate`."""
+    no_place: bool = options.pop("no_place")
+    if no_place and options["scale"]:
+        raise InvalidArgument("--scale: not together with --no-place, which takes the poses as they are.")
+    scale = scale_range(options.pop("scale"))
+    given = {name: options.pop(name) for name in (*_ANCHORS, "shoulder", "yaw", "tool_rotation")}
+    given = {name: value for name, value in given.items() if value is not None}
+    _consistent(given, no_place)
+    anchor = next((name for name in _ANCHORS if name in given), None)
+    if anchor is None:
+        return {"place": not no_place, "scale": scale}
+    return {"place": _anchored(anchor, given, scale, options["seed"])}
+
+
+def _consistent(given: dict[str, Any], no_place: bool) -> None:
+    """Refuse options that do not go together."""
+    anchors = [_flag(name) for name in _ANCHORS if name in given]
+    if len(anchors) > 1:
+        raise InvalidArgument(f"{' and '.join(anchors)}: expected one anchor.")
+    if given and no_place:
+        raise InvalidArgument(f"{_flag(next(iter(given)))}: not together with --no-place.")
+    if given and not anchors:
+        raise InvalidArgument(
+            f"{_flag(next(iter(given)))}: of an anchored motion; state {', '.join(map(_flag, _ANCHORS))}."
+        )
+    if ("anchor_shoulder" in given) != ("shoulder" in given):
+        raise InvalidArgument("--anchor-shoulder and --shoulder: expected both, where it comes to lie and where it is.")
+
+
+def _anchored(anchor: str, given: dict[str, Any], scale: tuple[float, float], seed: int) -> Callable[..., Any]:
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    from dmpcpp.planning import anchor_within_reach
+
+    on = _numbers("shoulder", given["shoulder"], 3) if "shoulder" in given else anchor.removeprefix("anchor_")
+    at = _numbers(anchor, given[anchor], *((3,) if "shoulder" in given else (3, 6)))
+    if len(at) == 6:
+        pose = np.eye(4)
+        pose[:3, :3] = Rotation.from_rotvec(at[3:], degrees=True).as_matrix()
+        pose[:3, 3] = at[:3]
+        at = pose
+    tool = given.get("tool_rotation")
+    if tool is not None:
+        if at.ndim == 2:
+            raise InvalidArgument(f"--tool-rotation: {_flag(anchor)} has an orientation already; state one of the two.")
+        tool = Rotation.from_rotvec(_numbers("tool_rotation", tool, 3), degrees=True).as_matrix()
+    yaw = np.radians(given["yaw"]) if "yaw" in given else None
+    return partial(anchor_within_reach, at=at, on=on, scale=scale, yaw=yaw, tool_rotation=tool, seed=seed)
+
+
+def _numbers(name: str, text: str, *counts: int) -> NDArray[Any]:
+    import numpy as np
+
+    try:
+        values = np.array([float(part) for part in text.split(",")])
+    except ValueError:
+        values = np.empty(0)
+    if len(values) not in counts or not np.isfinite(values).all():
+        expected = " or ".join(map(str, counts))
+        raise InvalidArgument(f"{_flag(name)}: '{text}', expected {expected} numbers such as 0.4,0,0.5.")
+    return values
+
+
+def scale_range(text: str | None) -> tuple[float, float]:
+    """Return the smallest and the largest scale: '0.5' or '0.4:0.8'; 0.25 to 1 unless given."""
+    if text is None:
+        return _SCALE
+    low, _, high = text.partition(":")
+    try:
+        return float(low), float(high or low)
+    except ValueError:
+        raise InvalidArgument(
+            f"--scale: '{text}', expected a number such as 0.5, or a range such as 0.4:0.8."
+        ) from None
+
+
+def _flag(name: str) -> str:
+    return "--" + name.replace("_", "-")

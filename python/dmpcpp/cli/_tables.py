@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from dmpcpp._core import PoseDmp
-    from dmpcpp.simulation import Check
+    from dmpcpp.checks import Check
 
 
 def note_style(note: str) -> str:

@@ -21,10 +21,10 @@ from scipy.spatial.transform import Rotation
 
 from dmpcpp._atomic import replacing, write_text
 from dmpcpp._text import number, read_text
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export._checks import JointMotion, JointSamples, checked, finite, strict_times
-from dmpcpp.recordings._formats.arrays import read_arrays
-from dmpcpp.recordings._recording import Array
+from dmpcpp.recordings import read_arrays
 
 if TYPE_CHECKING:
     from dmpcpp import Arm

@@ -13,9 +13,9 @@ from scipy.interpolate import CubicHermiteSpline
 
 from dmpcpp._atomic import write_text
 from dmpcpp._text import read_text
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export._checks import JointMotion, checked, finite
-from dmpcpp.recordings._recording import Array
 
 if TYPE_CHECKING:
     from dmpcpp import Arm

@@ -12,6 +12,7 @@ where the hand goes on straight along its own axis. Nothing but friction holds t
 from dmpcpp.grasp._attempt import CAVEAT, Grasp, grasp
 from dmpcpp.grasp._execution import GraspLog, carry_out
 from dmpcpp.grasp._film import film
+from dmpcpp.grasp._film import refuse_format as refuse_format
 from dmpcpp.grasp._planning import GraspPlan, Planner
 from dmpcpp.grasp._reach import default_reach, longest_reach
 from dmpcpp.grasp._task import Bottle, random_bottle

@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dmpcpp._core import Arm
+from dmpcpp.checks import Check, Checked
 from dmpcpp.grasp._execution import GraspLog, carry_out
 from dmpcpp.grasp._planning import GraspPlan, Planner
 from dmpcpp.grasp._task import Bottle
 from dmpcpp.grasp._verdict import judge
-from dmpcpp.recordings._recording import Recording
-from dmpcpp.simulation import Check, Checked
+from dmpcpp.recordings import Recording
 
 __all__ = ["CAVEAT", "Grasp", "grasp"]
 

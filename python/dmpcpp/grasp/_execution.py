@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.grasp._planning import GraspPlan
 from dmpcpp.grasp._timing import PHASES
-from dmpcpp.recordings._recording import Array
-from dmpcpp.simulation import ContactEvent, GraspWorld, ParallelGripper
-from dmpcpp.simulation._reference import Reference, sample
+from dmpcpp.simulation import ContactEvent, GraspWorld, ParallelGripper, Reference, sample
 
 __all__ = ["GraspLog", "carry_out"]
 

@@ -10,13 +10,15 @@ from itertools import product
 
 import numpy as np
 
-from dmpcpp import imitation, motion
+from dmpcpp import motion
 from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, so3
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.grasp._reach import laid, resting
 from dmpcpp.grasp._task import Bottle, hand_pose
 from dmpcpp.grasp._timing import timed_grasp
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.learning import learn
+from dmpcpp.recordings import Recording
 from dmpcpp.simulation import PANDA_HAND, GraspWorld, ParallelGripper
 
 __all__ = ["GraspPlan", "Planner"]
@@ -155,7 +157,7 @@ class Planner:
         middle = Bottle(height=bottle.height, grasp_height=bottle.grasp_height, cylinder=bottle.cylinder).grasp_point
         goal = hand_pose(middle, 0.0, float(np.median(_PITCHES)), self.gripper.depth + _BACK, turned)
         placed = laid(self.recording, middle + start, goal, roll)
-        return imitation.learn(motion.demonstration(placed.recording)), placed.recording.history
+        return learn(motion.demonstration(placed.recording)), placed.recording.history
 
     def _attempt(self, bottle: Bottle, candidate: _Candidate, world: GraspWorld) -> GraspPlan | str:
         """The plan, or what stands in its way."""

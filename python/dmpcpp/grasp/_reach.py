@@ -10,8 +10,9 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, RotationSpline
 
 from dmpcpp import motion, recordings
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings import Recording
 
 __all__ = ["default_reach", "laid", "longest_reach", "resting"]
 

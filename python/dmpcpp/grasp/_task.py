@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array
 from dmpcpp.simulation import Cylinder
 
 __all__ = ["Bottle", "hand_pose", "random_bottle"]

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dmpcpp import simulation
-from dmpcpp._core import Arm, JointTrajectory, duration_factor, stretched
-from dmpcpp.recordings._recording import Array
-from dmpcpp.robot import arms
+from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
+from dmpcpp.planning import Slowed, slowed
+from dmpcpp.simulation import Bullet
 
 __all__ = ["PHASES", "TimedGrasp", "timed_grasp"]
 
@@ -18,7 +18,6 @@ PHASES = ("reach", "approach", "close", "lift", "hold")
 _APPROACH, _LIFT = 1.0, 1.0  # s, at least
 _CLOSING, _HOLDING = 0.6, 2.0  # s
 _PAUSE_POSES = 10
-_RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
 _TORQUE_SHARE = 0.8  # of the effort limits; the rest is left to what is carried and to the feedback
 
 
@@ -55,15 +54,19 @@ def timed_grasp(arm: Arm, reach: Array, approach: Array, lift: Array, reach_dura
         None where the motors can not even hold the arm.
     """
     parts = [(reach, reach_duration), (approach, _APPROACH), (lift, _LIFT)]
-    factors = [_factor(arm, JointTrajectory.through(np.linspace(0.0, time, len(q)), q)) for q, time in parts]
-    if not np.isfinite(factors).all():
+    slow = [_slowed(arm, JointTrajectory.through(np.linspace(0.0, time, len(q)), q)) for q, time in parts]
+    if not all(part.possible for part in slow):
         return None
-    times = [factor * time for factor, (_, time) in zip(factors, parts, strict=True)]
+    times = [part.factor * time for part, (_, time) in zip(slow, parts, strict=True)]
     durations = (times[0], times[1], _CLOSING, times[2], _HOLDING)
     joints = _joined(arm, (reach, approach, approach[-1:], lift, lift[-1:]), durations)
-    again = _factor(arm, joints)  # the seams between the parts may ask for a little more
-    begins = again * np.cumsum((0.0, *durations[:-1]))
-    return TimedGrasp(stretched(joints, again), dict(zip(PHASES, begins.tolist(), strict=True)))
+    again = _slowed(arm, joints)  # the seams between the parts may ask for a little more
+    begins = again.factor * np.cumsum((0.0, *durations[:-1]))
+    return TimedGrasp(again.joints, dict(zip(PHASES, begins.tolist(), strict=True)))
+
+
+def _slowed(arm: Arm, joints: JointTrajectory) -> Slowed:
+    return slowed(arm, joints, Bullet, _TORQUE_SHARE)
 
 
 def _joined(arm: Arm, parts: tuple[Array, ...], durations: tuple[float, ...]) -> JointTrajectory:
@@ -75,10 +78,3 @@ def _joined(arm: Arm, parts: tuple[Array, ...], durations: tuple[float, ...]) ->
     time = np.concatenate([t[keep] for t, keep in zip(times, kept, strict=True)])
     position = np.concatenate([q[keep] for q, keep in zip(rows, kept, strict=True)])
     return JointTrajectory.through(time, position, arm.joint_names)
-
-
-def _factor(arm: Arm, joints: JointTrajectory) -> float:
-    """How many times as long the joints must take, at least 1; infinity where a pose can not be held."""
-    factor = max(1.0, _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)))
-    torque = simulation.torque_duration_factor(arm, stretched(joints, factor), share=_TORQUE_SHARE)
-    return factor * max(1.0, torque)

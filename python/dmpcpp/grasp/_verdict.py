@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
+from dmpcpp.checks import Check
 from dmpcpp.grasp._execution import GraspLog
 from dmpcpp.metrics import position_errors
-from dmpcpp.recordings._recording import Array
-from dmpcpp.simulation import Check, GraspWorld
+from dmpcpp.simulation import GraspWorld
 
 __all__ = ["GraspTolerances", "judge", "rise", "slip", "tilt"]
 

@@ -8,14 +8,12 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dmpcpp import export, metrics, motion, simulation
 from dmpcpp._atomic import replacing, write_text
 from dmpcpp._core import save
+from dmpcpp._typing import Array
 from dmpcpp.show import plot
-from dmpcpp.show.report._record import RunRecord, drawn, write_record
+from dmpcpp.show.report import RunRecord, drawn, write_record
 
 if TYPE_CHECKING:
     from dmpcpp.imitation._flow import Imitation
@@ -84,7 +82,7 @@ def _curves(run: Imitation) -> tuple[plot.ErrorCurve, ...]:
     again = run.model.rollout_at(run.recording.time).pose
     solved = run.log.arm.forward_kinematics(run.joints.position)
 
-    def curve(label: str, time: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> plot.ErrorCurve:
+    def curve(label: str, time: Array, a: Array, b: Array) -> plot.ErrorCurve:
         return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
 
     return (

@@ -14,29 +14,17 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dmpcpp import metrics, motion, simulation
-from dmpcpp._core import (
-    Arm,
-    Derivatives,
-    InverseKinematics,
-    JointTrajectory,
-    PoseDmp,
-    PoseTrajectory,
-    duration_factor,
-    stretched,
-)
+from dmpcpp._core import Arm, Derivatives, JointTrajectory, PoseDmp, PoseTrajectory
+from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.learning import learn, reproduction, reproduction_checks
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
-from dmpcpp.planning import Placement
+from dmpcpp.planning import Engine, Placement, clear_of_itself, solve
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import arms
-from dmpcpp.simulation import Check, Checked, ExecutionLog, Simulator
+from dmpcpp.simulation import ExecutionLog
 
 __all__ = ["STAGES", "Imitation", "PlacementPolicy", "Progress", "clear_of_itself", "imitate"]
 
@@ -48,13 +36,7 @@ PlacementPolicy = Callable[..., Placement]
 anchor bound, `functools.partial(retarget.anchor_within_reach, at=(0.4, 0, 0.5), on="start")`.
 """
 
-Engine = Callable[..., Simulator]
-
 STAGES = ("place", "learn", "solve", "execute")
-
-_SAMPLES_PER_KERNEL = 10
-_INSET = 2e-3  # rad or m, kept off the position limits where the path allows
-_RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +157,8 @@ def imitate(
     model = learn(demonstration, basis_count, noise=noise, smooth=smooth)
     placed = _noted(placed, model, noise)
     tell("solve", 0.0)
-    plan, joints, slowdown = _solve(model, arm, placement.start if placement else None, engines[0])
+    solution = solve(model, arm, start=placement.start if placement else None, engine=engines[0])
+    plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
     tell("execute", 0.0)
     path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
     logs = _execute(arm, joints, engines, lambda done: tell("execute", done))
@@ -217,53 +200,3 @@ def _noted(recording: Recording, model: PoseDmp, noise: Noise) -> Recording:
     if model.options.derivatives != Derivatives.smooth:
         return recording
     return recording.with_(f"learned with its noise smoothed out: {noise.describe()} found, once placed")
-
-
-def clear_of_itself(arm: Arm, engine: Engine) -> Callable[[JointTrajectory], bool]:
-    """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
-
-    def clear(joints: JointTrajectory) -> bool:
-        every = max(1, len(joints.time) // 100)
-        return not simulation.contacts_along(arm, joints.position[::every], simulator=engine)
-
-    return clear
-
-
-def _follow(path: PoseTrajectory, arm: Arm, start: NDArray[np.float64] | None) -> JointTrajectory:
-    """Return the joints along a path, off the limits if that can be: between samples a spline swings farther than they.
-
-    The placement's joints are a suggestion: where nothing leads on from them, the search is free.
-    """
-    for limited in (_inset(arm), arm):
-        solver = InverseKinematics(limited)
-        for begin in (None,) if start is None else (np.clip(start, limited.lower, limited.upper), None):
-            joints = solver.follow(path, start=begin)
-            if joints.report.complete:
-                return joints
-    return joints
-
-
-def _inset(arm: Arm) -> Arm:
-    span = arm.upper - arm.lower
-    room = np.where(np.isfinite(span), np.minimum(_INSET, 0.01 * span), 0.0)
-    return arm.with_limits(lower=arm.lower + room, upper=arm.upper - room)
-
-
-def _solve(
-    model: PoseDmp, arm: Arm, start: NDArray[np.float64] | None, engine: Engine
-) -> tuple[PoseTrajectory, JointTrajectory, float]:
-    """Return plan, joints and slowdown: the path as demonstrated, the duration as the joint limits ask for."""
-    samples = _SAMPLES_PER_KERNEL * max(model.options.basis_count, 100)
-    dt = model.duration / samples
-    joints = _follow(model.rollout(dt=dt), arm, start)
-    slowdown = max(
-        1.0,
-        _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm)),
-    )
-    joints = stretched(joints, slowdown)
-    torque = simulation.torque_duration_factor(arm, joints, simulator=engine)
-    if 1.0 < torque < np.inf:
-        joints = stretched(joints, torque)
-        slowdown *= torque
-    plan = model.rollout(duration=slowdown * model.duration, dt=slowdown * dt)
-    return plan, joints, slowdown

@@ -10,13 +10,19 @@ Samples that were lost stand as NaN in a Recording; `outliers` makes some more o
 out. Every other step asks for whole recordings.
 """
 
-from dmpcpp.motion._alignment import aligned, medoid
-from dmpcpp.motion._averaging import Spread, mean, spread
-from dmpcpp.motion._frames import relative_to, relative_to_pose
-from dmpcpp.motion._gaps import LONGEST_GAP, Gap, fill, gaps, gaps_in, skipped, split
-from dmpcpp.motion._outliers import outliers
+from dmpcpp.motion._alignment import Spread, aligned, mean, medoid, spread
+from dmpcpp.motion._cleaning import LONGEST_GAP, Gap, fill, gaps, gaps_in, outliers, skipped, split
 from dmpcpp.motion._plausibility import implausible, plausible
-from dmpcpp.motion._poses import complete, continuous, demonstration, poses, quaternions, turn_angles
+from dmpcpp.motion._poses import (
+    complete,
+    continuous,
+    demonstration,
+    poses,
+    quaternions,
+    relative_to,
+    relative_to_pose,
+    turn_angles,
+)
 from dmpcpp.motion._preparation import Preparation, prepare
 from dmpcpp.motion._segmentation import cycles, segments, speed
 from dmpcpp.motion._smoothing import Noise, low_pass, noise, smooth, white_noise

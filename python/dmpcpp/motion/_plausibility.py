@@ -7,8 +7,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings import Recording
 
 __all__ = ["implausible", "plausible"]
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.motion._gaps import LONGEST_GAP, fill
-from dmpcpp.motion._outliers import outliers
+from dmpcpp.motion._cleaning import LONGEST_GAP, fill, outliers
 from dmpcpp.motion._segmentation import cycles, segments
 from dmpcpp.motion._smoothing import evenly_sampled, low_pass, smooth
 from dmpcpp.motion._timing import crop, resample
-from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings import Recording
 
 __all__ = ["Preparation", "prepare"]
 

@@ -7,11 +7,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._poses import complete, positive, turn_angles
 from dmpcpp.motion._smoothing import Noise, evenly_sampled, low_pass, noise
 from dmpcpp.motion._timing import resample
-from dmpcpp.recordings._recording import MIN_SAMPLES, Array, Recording
+from dmpcpp.recordings import MIN_SAMPLES, Recording
 
 __all__ = ["cycles", "segments", "speed"]
 

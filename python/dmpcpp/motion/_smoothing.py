@@ -9,9 +9,10 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._poses import continuous, demonstration, known_quaternions, positive, quaternions
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings import Recording
 
 __all__ = ["Noise", "evenly_sampled", "low_pass", "noise", "smooth", "white_noise"]
 

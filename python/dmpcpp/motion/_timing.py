@@ -6,9 +6,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, RotationSpline
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._poses import complete, continuous, positive, turn_angles
-from dmpcpp.recordings._recording import MIN_SAMPLES, Array, Recording
+from dmpcpp.recordings import MIN_SAMPLES, Recording
 
 __all__ = ["crop", "evaluated", "refine", "resample"]
 

@@ -8,20 +8,28 @@ A recorded motion is placed by one similarity transform (`place`, `anchor`); `pl
 """
 
 from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
-from dmpcpp.planning._following import Accept
-from dmpcpp.planning._placement import Placement
+from dmpcpp.planning._joints import Engine, Slowed, Solution, clear_of_itself, limit_factor, slowed, solve
+from dmpcpp.planning._placement import Accept, Placement
 from dmpcpp.planning._plan import JointPlan, plan, write
-from dmpcpp.planning._search import place
+from dmpcpp.planning._search import place, placed
 
 __all__ = [
     "Accept",
+    "Engine",
     "JointPlan",
     "Placement",
     "Reach",
+    "Slowed",
+    "Solution",
     "anchor",
     "anchor_within_reach",
+    "clear_of_itself",
+    "limit_factor",
     "place",
+    "placed",
     "plan",
     "reach",
+    "slowed",
+    "solve",
     "write",
 ]

@@ -14,11 +14,11 @@ from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
 from dmpcpp._core import Arm, InverseKinematics
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.planning._following import EFFORT, Accept, to_follow
-from dmpcpp.planning._placement import Placement
-from dmpcpp.recordings._recording import Array, Recording
-from dmpcpp.robot._reach import require_within_reach
+from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
+from dmpcpp.recordings import Recording
+from dmpcpp.robot import require_within_reach
 
 __all__ = ["Reach", "anchor", "anchor_within_reach", "reach"]
 

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
+from dmpcpp._core import JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array, Axis, Recording
+from dmpcpp.recordings import Axis, Recording
 
-__all__ = ["Placement"]
+__all__ = ["EFFORT", "Accept", "Placement", "to_follow"]
 
 _Z_UP = {
     "x": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),  # -90 deg about y
@@ -138,3 +142,31 @@ def _owned(name: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
         raise InvalidArgument(f"{name}: {array.tolist()}, expected {shape} finite numbers.")
     array.setflags(write=False)
     return array
+
+
+Accept = Callable[[JointTrajectory], bool]
+"""A last word on joints that carry the whole motion, for what kinematics does not see."""
+
+EFFORT: dict[str, Any] = {"starts": 8, "anchors": 3, "thorough": False}
+"""Of the search for joints along one candidate's path."""
+
+_STEP_DISTANCE = 0.03  # m, recorded, between the poses that are followed
+_STEP_ANGLE = 0.1  # rad, likewise
+_LONG = 5000  # samples; a search follows a path hundreds of times
+_RATE = 50.0  # Hz; a hand does nothing in between that an arm could follow
+
+
+def to_follow(recording: Recording) -> Recording:
+    """Return the motion with more samples where a fast hand moves further between two of them than joints can be
+    followed with certainty; and with fewer, but 50 a second, where a long one was sampled faster than that.
+    """
+    every = max(1, int(recording.rate / _RATE)) if len(recording) > _LONG else 1
+    if every > 1:
+        kept = np.append(np.arange(0, len(recording) - 1, every), len(recording) - 1)
+        recording = recording.with_(
+            f"every {every}th sample taken",
+            time=recording.time[kept],
+            position=recording.position[kept],
+            rotation=recording.rotation[kept],
+        )
+    return motion.refine(recording, _STEP_DISTANCE, _STEP_ANGLE)

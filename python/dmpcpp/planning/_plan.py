@@ -8,9 +8,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -18,19 +17,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dmpcpp import export, simulation
+from dmpcpp import export
 from dmpcpp._atomic import write_text
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, PoseTrajectory, duration_factor, stretched
+from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
+from dmpcpp._typing import Array
+from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import arms
-from dmpcpp.robot._reach import require_within_reach
-from dmpcpp.simulation import Check, Checked, Simulator, Tolerances
+from dmpcpp.planning._joints import clear_of_itself, solve
+from dmpcpp.robot import LimitUse, require_within_reach
+from dmpcpp.simulation import Simulator, Tolerances, inverse_kinematics_checks, path_checks
 
 __all__ = ["JointPlan", "plan", "write"]
-
-_SAMPLES = 1000
-_BRANCHES = 12  # other starts that are tried where the best one touches itself
-_RESERVE = 1.02  # on the duration that the joint limits ask for: a controller's feedback needs some of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,46 +105,30 @@ def plan(
     wanted = model.duration if duration is None else duration
     if not 0.0 < wanted < np.inf:
         raise InvalidArgument(f"duration: {wanted}, expected a positive number of seconds.")
-    samples = max(_SAMPLES, 10 * model.options.basis_count)
-    motion = model.rollout(goal, wanted, wanted / samples)
     end = np.asarray(model.goal if goal is None else goal, dtype=np.float64)
-    require_within_reach(end[:3, 3], arm, "goal: the end of the motion")
-    joints = _joints(arm, motion, start, simulator)
-    factor = _RESERVE * duration_factor(joints, arm.velocity_limit, arms.acceleration_limit(arm))
-    slowdown = max(1.0, factor) if slow_down and np.isfinite(factor) else 1.0
-    if slowdown > 1.0:
-        joints = stretched(joints, slowdown)
-        motion = model.rollout(goal, slowdown * wanted, slowdown * wanted / samples)
-    checks = tuple(_checks(arm, joints))
+    if end.shape == (4, 4):  # any other is refused by the rollout
+        require_within_reach(end[:3, 3], arm, "goal: the end of the motion")
+    accept = clear_of_itself(arm, simulator) if simulator is not None else None
+    solution = solve(
+        model, arm, goal=goal, duration=wanted, stand=_stand(start, arm), accept=accept, slow_down=slow_down
+    )
+    joints = solution.joints
+    use = LimitUse.of(arm, joints.time, joints.position, joints.velocity, joints.acceleration)
+    checks = (*inverse_kinematics_checks(joints, Tolerances()), *use.checks())
     if simulator is not None:
-        checks = (*checks, *simulation.path_checks(arm, joints, simulator=simulator))
-    return JointPlan(arm, motion, joints, slowdown, checks)
+        checks = (*checks, *path_checks(arm, joints, simulator=simulator))
+    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks)
 
 
-def _joints(
-    arm: Arm, motion: PoseTrajectory, start: ArrayLike | None, simulator: Callable[..., Simulator] | None
-) -> JointTrajectory:
-    """Return the joints from `start`, or from the first start that keeps the arm clear of itself and the floor."""
-    solver = InverseKinematics(arm)
-    if start is not None:
-        joints = np.asarray(start, dtype=np.float64)
-        if joints.shape != (arm.joint_count,):
-            raise InvalidArgument(
-                f"start: shape {joints.shape}, expected ({arm.joint_count},): {', '.join(arm.joint_names)}."
-            )
-        return solver.follow(motion, start=joints)
-    best = solver.follow(motion)
-    if simulator is None or not best.report.complete or _clear(arm, best, simulator):
-        return best
-    for branch in islice(solver.branches(motion.pose[0]), _BRANCHES):
-        other = solver.follow(motion, start=branch.joints)
-        if other.report.complete and _clear(arm, other, simulator):
-            return other
-    return best
-
-
-def _clear(arm: Arm, joints: JointTrajectory, simulator: Callable[..., Simulator]) -> bool:
-    return all(check.ok for check in simulation.path_checks(arm, joints, simulator=simulator))
+def _stand(start: ArrayLike | None, arm: Arm) -> Array | None:
+    if start is None:
+        return None
+    joints = np.asarray(start, dtype=np.float64)
+    if joints.shape != (arm.joint_count,):
+        raise InvalidArgument(
+            f"start: shape {joints.shape}, expected ({arm.joint_count},): {', '.join(arm.joint_names)}."
+        )
+    return joints
 
 
 def write(found: JointPlan, folder: str | PathLike[str]) -> None:
@@ -169,33 +150,3 @@ def write(found: JointPlan, folder: str | PathLike[str]) -> None:
     if found.ok:
         export.write_joints(folder / "joints.csv", found.joints)
     write_text(folder / "summary.json", json.dumps(found.summary(), indent=2, allow_nan=False) + "\n")
-
-
-def _checks(arm: Arm, joints: JointTrajectory) -> Iterator[Check]:
-    limits, report, names = Tolerances(), joints.report, arm.joint_names
-    for name, values, limit, unit in (
-        ("ik_position_residual", report.position_error, limits.ik_position, "m"),
-        ("ik_angle_residual", report.angle_error, limits.ik_angle, "rad"),
-    ):
-        worst = int(np.argmax(values))
-        yield Check(name, bool(values[worst] <= limit), float(values[worst]), limit, unit, float(joints.time[worst]))
-    margin = np.minimum(joints.position - arm.lower, arm.upper - joints.position)
-    row, column = np.unravel_index(np.argmin(margin), margin.shape)
-    lowest = float(margin[row, column])
-    yield Check(
-        "joint_margin",
-        lowest >= limits.joint_margin - 1e-6,
-        lowest,
-        limits.joint_margin,
-        "rad",
-        float(joints.time[row]),
-        names[column],
-    )
-    for name, ratio, most in (
-        ("velocity_ratio", np.abs(joints.velocity) / arm.velocity_limit, limits.velocity_ratio),
-        ("acceleration_ratio", np.abs(joints.acceleration) / arms.acceleration_limit(arm), limits.acceleration_ratio),
-    ):
-        row, column = np.unravel_index(np.argmax(ratio), ratio.shape)
-        worst_ratio = float(ratio[row, column])
-        held = worst_ratio <= most * (1.0 + 1e-6)
-        yield Check(name, held, worst_ratio, most, "1", float(joints.time[row]), names[column])

@@ -9,7 +9,7 @@ improved by small changes, each judged by one pass along the path from the joint
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -18,14 +18,15 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, duration_factor
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.planning._following import EFFORT, Accept, to_follow
-from dmpcpp.planning._placement import Placement
-from dmpcpp.recordings._recording import Array, Axis, Recording
-from dmpcpp.robot import arms
+from dmpcpp.planning._joints import clear_of_itself, limit_factor
+from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
+from dmpcpp.recordings import Axis, Recording
+from dmpcpp.simulation import Bullet
 
-__all__ = ["place"]
+__all__ = ["place", "placed"]
 
 _CLOUD = 20_000  # random configurations whose tip positions tell where the arm reaches
 _COARSE = 24  # poses that stand for the motion in the first tests
@@ -99,6 +100,24 @@ def place(
     if recording.up_axis is None:
         note += "; up axis not stated: z taken"
     return replace(best.placement, note=note)
+
+
+def placed(
+    recordings: Sequence[Recording], arm: Arm, *, scale: tuple[float, float] = (0.25, 1.0), seed: int = 0
+) -> list[Recording]:
+    """Place the first recording in an arm's workspace, clear of the arm itself, and the others by the same placement.
+
+    Raises
+    ------
+    InvalidArgument
+        One of them is no motion of a hand (`motion.plausible`), or no placement carries the first.
+    MissingDependency
+        PyBullet, in whose geometry contacts are looked at, is not installed.
+    """
+    whole = [motion.plausible(motion.continuous(recording)) for recording in recordings]
+    clear = clear_of_itself(arm, Bullet)
+    placement = place(whole[0], arm, seed, scale=scale, accept=clear)
+    return [placement.apply_to(recording) for recording in whole]
 
 
 @dataclass(frozen=True)
@@ -242,7 +261,7 @@ class _Search:
         joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start, thorough=False)
         report = joints.report
         placement = replace(placement, start=start)
-        slowdown = duration_factor(joints, self.arm.velocity_limit, arms.acceleration_limit(self.arm))
+        slowdown = limit_factor(self.arm, joints)
         carried = _Carried(placement, report.limit_margin, slowdown)
         if not report.complete or carried.worth <= better_than:
             return None

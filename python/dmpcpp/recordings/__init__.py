@@ -19,9 +19,12 @@ from os import PathLike
 from pathlib import Path
 
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._formats.clips import clip_names, clip_path
+from dmpcpp.recordings._formats.arrays import read_arrays as read_arrays
+from dmpcpp.recordings._formats.deepmimic import clip_names, clip_path
 from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._reader import Reader
+from dmpcpp.recordings._recording import MIN_SAMPLES as MIN_SAMPLES
+from dmpcpp.recordings._recording import Axis as Axis
 from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._registry import prepared, reader_of, summaries
 from dmpcpp.recordings._rigid_body import of_markers, rigid_body

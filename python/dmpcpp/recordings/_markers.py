@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import MIN_SAMPLES, Array, Axis
+from dmpcpp.recordings._recording import MIN_SAMPLES, Axis
 
 __all__ = ["Markers", "distinct"]
 

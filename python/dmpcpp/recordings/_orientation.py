@@ -7,8 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._recording import Array
 
 __all__ = [
     "HELD_FIXED",

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._text import Cells
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._cells import Cells
 from dmpcpp.recordings._orientation import HELD_FIXED, REFUSE_ABOVE, from_euler, from_quaternions, held_fixed, no_turn
-from dmpcpp.recordings._recording import Array
 from dmpcpp.recordings._statement import Stated
 
 __all__ = ["ANGLES", "POSITION", "QUATERNION", "pose", "stated_columns"]

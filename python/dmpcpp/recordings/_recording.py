@@ -8,11 +8,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 
 __all__ = ["MIN_SAMPLES", "Array", "Axis", "Recording"]
 
-Array = NDArray[np.float64]
 Axis = Literal["x", "y", "z"]
 
 MIN_SAMPLES = 8

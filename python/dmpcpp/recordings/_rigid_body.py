@@ -12,10 +12,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._orientation import HELD_FIXED, held_fixed
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings._recording import Recording
 
 __all__ = ["fit_poses", "of_markers", "rigid_body", "single_marker"]
 

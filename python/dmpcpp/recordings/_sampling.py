@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array
 from dmpcpp.recordings._statement import Stated, times_at_rate
 from dmpcpp.recordings._world import LIKELY_STEP, seconds
 

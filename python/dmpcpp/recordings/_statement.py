@@ -8,10 +8,11 @@ from typing import Literal
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._orientation import QuatOrder
-from dmpcpp.recordings._recording import Array, Axis, Recording
+from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._time_order import in_order
 from dmpcpp.recordings._world import Frame, Handedness, World
 

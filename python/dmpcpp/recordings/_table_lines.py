@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from dmpcpp._text import data_lines
+from dmpcpp._text import Row, data_lines, split, split_all
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Row, split, split_all
 from dmpcpp.recordings._columns import known_unit
 
 __all__ = ["TableLines", "is_data", "shown", "table_lines"]

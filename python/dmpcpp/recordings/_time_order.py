@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array
 
 __all__ = ["in_order"]
 

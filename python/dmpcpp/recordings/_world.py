@@ -7,8 +7,9 @@ from typing import Literal
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._recording import MIN_SAMPLES, Array, Axis
+from dmpcpp.recordings._recording import MIN_SAMPLES, Axis
 
 __all__ = ["LENGTH_UNITS", "LIKELY_STEP", "TIME_UNITS", "Frame", "Handedness", "World", "seconds"]
 

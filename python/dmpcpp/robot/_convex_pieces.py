@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-Points = NDArray[np.float64]
+from dmpcpp._typing import Array
+
+Points = Array
 Triangles = NDArray[np.intp]
 
 _CUTS = (0.25, 0.5, 0.75)  # where along each axis a cut is tried
@@ -77,13 +79,13 @@ def _obj(points: Points, triangles: Triangles) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _indexed(corners: NDArray[np.float64]) -> tuple[Points, Triangles]:
+def _indexed(corners: Array) -> tuple[Points, Triangles]:
     """Triangles (F, 3, 3) as points (V, 3), each once, and their numbers (F, 3)."""
     points, numbers = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
     return points, numbers.reshape(-1, 3)
 
 
-def _read(path: Path) -> NDArray[np.float64]:
+def _read(path: Path) -> Array:
     """Triangles (F, 3, 3) in the unit of the file; ValueError for a file that is neither OBJ nor STL."""
     kind = path.suffix.lower()
     if kind == ".obj":
@@ -93,7 +95,7 @@ def _read(path: Path) -> NDArray[np.float64]:
     raise ValueError(kind)
 
 
-def _read_obj(text: str) -> NDArray[np.float64]:
+def _read_obj(text: str) -> Array:
     words = [line.split() for line in text.splitlines()]
     points = np.array([word[1:4] for word in words if word[:1] == ["v"]], dtype=np.float64)
     faces = [[int(corner.split("/")[0]) for corner in word[1:]] for word in words if word[:1] == ["f"]]
@@ -102,7 +104,7 @@ def _read_obj(text: str) -> NDArray[np.float64]:
     return np.asarray(points[np.where(index > 0, index - 1, index)])
 
 
-def _read_stl(data: bytes) -> NDArray[np.float64]:
+def _read_stl(data: bytes) -> Array:
     count = int.from_bytes(data[80:84], "little")
     if len(data) == 84 + 50 * count:
         table = np.frombuffer(data[84:], dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])

@@ -12,9 +12,9 @@ from itertools import combinations, product
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot._convex_pieces import convex_pieces
 from dmpcpp.robot._disturbance import Disturbance
@@ -120,7 +120,7 @@ def _refuse_folded_joints(robot: ET.Element, arm: Arm) -> None:
         link = _ends(joint)[0]
 
 
-def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:
+def is_physical(inertia: Array, tolerance: float = 1e-9) -> bool:
     """Whether a rigid body can have this inertia (3, 3) [kg m^2] about its centre of mass.
 
     It can when the inertia is positive definite and its principal moments hold the triangle inequality
@@ -135,7 +135,7 @@ def is_physical(inertia: NDArray[np.float64], tolerance: float = 1e-9) -> bool:
     return bool(moments[0] > 0.0 and np.linalg.eigvalsh(_second_moment(inertia))[0] >= -tolerance * scale)
 
 
-def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
+def nearest_physical(inertia: Array) -> Array:
     """The physical inertia (3, 3) nearest to ``inertia``: its second moment without negative eigenvalues.
 
     Nearest in the Frobenius norm of the second moment. A floor of 1e-4 of the largest eigenvalue keeps the
@@ -147,7 +147,7 @@ def nearest_physical(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.trace(second_moment) * np.eye(3) - second_moment)
 
 
-def _second_moment(inertia: NDArray[np.float64]) -> NDArray[np.float64]:
+def _second_moment(inertia: Array) -> Array:
     return np.asarray(0.5 * np.trace(inertia) * np.eye(3) - inertia)
 
 
@@ -215,7 +215,7 @@ def _make_massless(link: ET.Element) -> None:
     _write_inertia(ET.SubElement(inertial, "inertia"), np.zeros((3, 3)))
 
 
-def _read_inertia(element: ET.Element | None, link: str) -> NDArray[np.float64]:
+def _read_inertia(element: ET.Element | None, link: str) -> Array:
     if element is None:
         return np.zeros((3, 3))
     try:
@@ -228,7 +228,7 @@ def _read_inertia(element: ET.Element | None, link: str) -> NDArray[np.float64]:
     return inertia
 
 
-def _write_inertia(element: ET.Element, inertia: NDArray[np.float64]) -> None:
+def _write_inertia(element: ET.Element, inertia: Array) -> None:
     for name, (row, column) in zip(_COMPONENTS, zip(*np.triu_indices(3), strict=True), strict=True):
         element.set(name, repr(float(inertia[row, column])))
 

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array
 
 __all__ = ["farthest_reach", "require_within_reach"]
 

@@ -7,8 +7,9 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
+
+from dmpcpp._typing import Array
 
 PAYLOAD_LINK = "dmpcpp_payload"
 _PAYLOAD_RADIUS = 0.03  # m
@@ -83,9 +84,9 @@ def _displace(joint: ET.Element, value: float) -> None:
             origin.set("rpy", _text((rotation * Rotation.from_rotvec(value * axis)).as_euler("xyz")))
 
 
-def _vector(text: str) -> NDArray[np.float64]:
+def _vector(text: str) -> Array:
     return np.array([float(word) for word in text.split()])
 
 
-def _text(vector: Collection[float] | NDArray[np.float64]) -> str:
+def _text(vector: Collection[float] | Array) -> str:
     return " ".join(repr(float(value)) for value in vector)

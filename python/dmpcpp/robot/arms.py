@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
 DEFAULT_ACCELERATION = 10.0
@@ -113,7 +113,7 @@ def load(name_or_path: str | Path, base: str | None = None, tip: str | None = No
     return find(str(name_or_path))
 
 
-def acceleration_limit(arm: Arm) -> NDArray[np.float64]:
+def acceleration_limit(arm: Arm) -> Array:
     """Joint acceleration limits (n,) [rad/s^2]: the maker's if ``KNOWN`` has them, else DEFAULT_ACCELERATION.
 
     An arm is known by its name and its joints' number: ``panda`` of any base and tip with all joints has

@@ -5,21 +5,21 @@ MuJoCo are imported when they are first needed; without them ``execute`` raises 
 """
 
 from dmpcpp.checks import Check, Checked
-from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.robot import Disturbance
 from dmpcpp.simulation._bullet import Bullet
 from dmpcpp.simulation._execution import execute
 from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation._grasp_world import GraspWorld
-from dmpcpp.simulation._gripper import PANDA_HAND, ParallelGripper
 from dmpcpp.simulation._mujoco import MuJoCo
-from dmpcpp.simulation._objects import Cylinder, Friction
-from dmpcpp.simulation._obstacles import Box
+from dmpcpp.simulation._objects import PANDA_HAND, Box, Cylinder, Friction, ParallelGripper
 from dmpcpp.simulation._path_check import PathTolerances, contacts_along, path_checks
 from dmpcpp.simulation._reference import Reference, from_rest_to_rest
+from dmpcpp.simulation._reference import sample as sample
+from dmpcpp.simulation._reference import states_at as states_at
 from dmpcpp.simulation._second_opinion import AgreementTolerances, agreement
 from dmpcpp.simulation._simulator import Clearance, Contact, Simulator
 from dmpcpp.simulation._torque_scaling import torque_duration_factor
-from dmpcpp.simulation._verdict import Tolerances, Verdict, judge
+from dmpcpp.simulation._verdict import Tolerances, Verdict, inverse_kinematics_checks, judge
 
 ENGINES = {"bullet": Bullet, "mujoco": MuJoCo}
 """The engines by the names of the command line."""
@@ -51,6 +51,7 @@ __all__ = [
     "contacts_along",
     "execute",
     "from_rest_to_rest",
+    "inverse_kinematics_checks",
     "judge",
     "path_checks",
     "torque_duration_factor",

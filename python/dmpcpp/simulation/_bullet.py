@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.simulation._bullet_world import BulletWorld
 from dmpcpp.simulation._simulator import Clearance, Contact
 
@@ -44,22 +44,22 @@ class Bullet(BulletWorld):
 
     # ---- Simulator ---------------------------------------------------------------------------------------
 
-    def reset(self, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+    def reset(self, position: Array, velocity: Array) -> None:
         """Put the arm into a state."""
         for joint, q, qd in zip(self._arm_joints, position.tolist(), velocity.tolist(), strict=True):
             self._p.resetJointState(self._body, joint, q, qd, physicsClientId=self._client)
         self._read()
 
-    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def state(self) -> tuple[Array, Array]:
         """Position and velocity, as read after the last step."""
         return self._state
 
     def inverse_dynamics(
         self,
-        acceleration: NDArray[np.float64],
-        position: NDArray[np.float64] | None = None,
-        velocity: NDArray[np.float64] | None = None,
-    ) -> NDArray[np.float64]:
+        acceleration: Array,
+        position: Array | None = None,
+        velocity: Array | None = None,
+    ) -> Array:
         """Torque for an acceleration of the arm's joints, the others held."""
         held_q, held_qd = self._held_state
         q = self._in_tree_order(self._state[0] if position is None else position, held_q)
@@ -69,7 +69,7 @@ class Bullet(BulletWorld):
         # Bullet steps with the joint damping of the URDF but leaves it out of its inverse dynamics.
         return np.array([torque[i] + self._damping[i] * qd[i] for i in self._of_arm])
 
-    def apply_torque(self, torque: NDArray[np.float64]) -> None:
+    def apply_torque(self, torque: Array) -> None:
         """Torque of the next step."""
         self._p.setJointMotorControlArray(
             self._body,
@@ -79,7 +79,7 @@ class Bullet(BulletWorld):
             physicsClientId=self._client,
         )
 
-    def servo(self, velocity: NDArray[np.float64]) -> None:
+    def servo(self, velocity: Array) -> None:
         """One step of Bullet's velocity motors: gain 1 reaches the target unless the torque is capped."""
         self._p.setJointMotorControlArray(
             self._body,
@@ -91,7 +91,7 @@ class Bullet(BulletWorld):
             physicsClientId=self._client,
         )
 
-    def servo_torque(self) -> NDArray[np.float64]:
+    def servo_torque(self) -> Array:
         """Torque that the motors gave in the last step."""
         return np.array(self._motor_torque)
 
@@ -100,7 +100,7 @@ class Bullet(BulletWorld):
         self._p.stepSimulation(physicsClientId=self._client)
         self._read()
 
-    def tool_pose(self) -> NDArray[np.float64]:
+    def tool_pose(self) -> Array:
         """Pose of the tip in the base frame, by Bullet."""
         tip = self._link_pose(self._tip)
         return tip if self._base == -1 else self._root_in_base() @ tip
@@ -117,13 +117,13 @@ class Bullet(BulletWorld):
                 deepest[pair] = max(deepest.get(pair, 0.0), -point[8])
         return [Contact(*pair, depth) for pair, depth in sorted(deepest.items())]
 
-    def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
+    def contacts_at(self, position: Array) -> list[Contact]:
         """Contacts with the arm put at a position."""
         self.reset(position, np.zeros_like(position))
         self._p.performCollisionDetection(physicsClientId=self._client)
         return self.contacts()
 
-    def clearances_at(self, position: NDArray[np.float64], within: float) -> list[Clearance]:
+    def clearances_at(self, position: Array, within: float) -> list[Clearance]:
         """Closest points of every pair that may collide, with the arm put at a position."""
         self.reset(position, np.zeros_like(position))
         self._p.performCollisionDetection(physicsClientId=self._client)
@@ -134,12 +134,12 @@ class Bullet(BulletWorld):
 
     # ---- reading -----------------------------------------------------------------------------------------
 
-    def _in_tree_order(self, of_arm: NDArray[np.float64], of_held: list[float]) -> list[float]:
+    def _in_tree_order(self, of_arm: Array, of_held: list[float]) -> list[float]:
         """Values of all moving joints as Bullet's inverse dynamics wants them."""
         values: list[float] = of_arm.tolist() + of_held
         return values if self._arm_comes_first else [values[k] for k in self._tree_order]
 
-    def _root_in_base(self) -> NDArray[np.float64]:
+    def _root_in_base(self) -> Array:
         return self._root_in_still_base if self._base_stands else np.linalg.inv(self._link_pose(self._base))
 
     def _clearance(self, other: int, link: int, other_link: int, within: float) -> Clearance | None:

@@ -17,14 +17,13 @@ from types import ModuleType
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
+from dmpcpp._quiet import quiet
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
-from dmpcpp.robot._description import RobotDescription, describe, links_of
-from dmpcpp.robot._disturbance import Disturbance
-from dmpcpp.simulation._obstacles import Box, refuse_names
-from dmpcpp.simulation._quiet import quiet
+from dmpcpp.robot import Disturbance, RobotDescription, describe, links_of
+from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, checked_time_step
 
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
@@ -196,7 +195,7 @@ class BulletWorld:
         self._state, self._motor_torque = (np.array(q[:n]), np.array(qd[:n])), torque[:n]
         self._held_state = list(q[n:]), list(qd[n:])
 
-    def _link_pose(self, link: int) -> NDArray[np.float64]:
+    def _link_pose(self, link: int) -> Array:
         """Pose of a link's frame (not of its centre of mass) in the root's frame."""
         if link == -1:
             return np.eye(4)

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.simulation._reference import Reference
 from dmpcpp.simulation._sensing import JointState
 from dmpcpp.simulation._simulator import Simulator
 
-Array = NDArray[np.float64]
 Mode = Literal["computed_torque", "position", "position_velocity", "velocity"]
 MODES: tuple[str, ...] = get_args(Mode)
 

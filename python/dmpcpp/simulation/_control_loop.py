@@ -7,14 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.simulation._control import Controller
 from dmpcpp.simulation._reference import Reference
 from dmpcpp.simulation._sensing import Sensors
 from dmpcpp.simulation._simulator import Contact, Simulator
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 _PROGRESS_STEPS = 100  # steps between two calls of the progress function

@@ -10,13 +10,12 @@ import numpy as np
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.robot import Disturbance
 from dmpcpp.simulation._bullet import Bullet
 from dmpcpp.simulation._control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
-from dmpcpp.simulation._control_loop import ControlLoop, Progress, Recorder, by_motors, by_torque
+from dmpcpp.simulation._control_loop import ControlLoop, Progress, Recorder, Sensors, by_motors, by_torque
 from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation._reference import INTERPOLATIONS, Interpolation, Reference, sample
-from dmpcpp.simulation._sensing import Sensors
 from dmpcpp.simulation._simulator import Simulator
 
 

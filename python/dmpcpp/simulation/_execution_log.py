@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.metrics import StageErrors, compare
-from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.robot import Disturbance
 from dmpcpp.simulation._simulator import Contact
 from dmpcpp.simulation._verdict import Verdict, judge
 
@@ -84,15 +82,15 @@ class ExecutionLog:
     motion: slice
     planned_steps: int
     repaired_links: tuple[str, ...]
-    time: NDArray[np.float64]
-    desired_position: NDArray[np.float64]
-    position: NDArray[np.float64]
-    desired_velocity: NDArray[np.float64]
-    velocity: NDArray[np.float64]
-    torque_demand: NDArray[np.float64]
-    torque: NDArray[np.float64]
-    desired_tool_pose: NDArray[np.float64]
-    tool_pose: NDArray[np.float64]
+    time: Array
+    desired_position: Array
+    position: Array
+    desired_velocity: Array
+    velocity: Array
+    torque_demand: Array
+    torque: Array
+    desired_tool_pose: Array
+    tool_pose: Array
     contacts: tuple[ContactEvent, ...]
     disturbance: Disturbance = field(default_factory=Disturbance)
 

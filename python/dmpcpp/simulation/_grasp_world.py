@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.simulation._bullet import Bullet
-from dmpcpp.simulation._gripper import ParallelGripper
-from dmpcpp.simulation._objects import Cylinder, Friction
+from dmpcpp.simulation._objects import Cylinder, Friction, ParallelGripper
 
 _STAND = 0.15  # m, side of the column under the object
 _GEAR_FORCE = 50.0  # N that keeps one finger as far out as the other
@@ -50,7 +50,7 @@ class GraspWorld(Bullet):
         time_step: float,
         gripper: ParallelGripper,
         cylinder: Cylinder,
-        place: NDArray[np.float64],
+        place: Array,
         *,
         visuals: bool = False,
     ) -> None:
@@ -76,7 +76,7 @@ class GraspWorld(Bullet):
             self._p.resetJointState(self._body, finger, opening, 0.0, physicsClientId=self._client)
         self._read()
 
-    def put(self, position: NDArray[np.float64], opening: float, object_pose: NDArray[np.float64]) -> None:
+    def put(self, position: Array, opening: float, object_pose: Array) -> None:
         """Put arm (n,) [rad], fingers [m] and object (4, 4) where they were, for a picture; no dynamics."""
         self.reset(position, np.zeros_like(position))
         self.put_fingers(opening)
@@ -110,7 +110,7 @@ class GraspWorld(Bullet):
         states = self._p.getJointStates(self._body, self._fingers, physicsClientId=self._client)
         return 0.5 * float(states[0][0] + states[1][0])
 
-    def object_pose(self) -> NDArray[np.float64]:
+    def object_pose(self) -> Array:
         """Pose (4, 4) of the object in the root's frame, its axis z."""
         position, quaternion = self._p.getBasePositionAndOrientation(self._object, physicsClientId=self._client)
         r = self._p.getMatrixFromQuaternion(quaternion)
@@ -147,7 +147,7 @@ class GraspWorld(Bullet):
             self._give_friction(body, self._links[link], self._gripper.friction)
         self.put_fingers(self._gripper.opening)
 
-    def _add_stand(self, place: NDArray[np.float64]) -> dict[int, str]:
+    def _add_stand(self, place: Array) -> dict[int, str]:
         """Return its number with its name; nothing for a cylinder that stands on the floor."""
         x, y, height = (float(value) for value in place)
         if height <= 0.0:
@@ -159,7 +159,7 @@ class GraspWorld(Bullet):
         body = p.createMultiBody(0.0, shape, basePosition=[x, y, 0.5 * height], physicsClientId=client)
         return {int(body): self.stand_name}
 
-    def _add_cylinder(self, cylinder: Cylinder, place: NDArray[np.float64]) -> int:
+    def _add_cylinder(self, cylinder: Cylinder, place: Array) -> int:
         p, client = self._p, self._client
         shape = p.createCollisionShape(
             p.GEOM_CYLINDER, radius=cylinder.radius, height=cylinder.height, physicsClientId=client

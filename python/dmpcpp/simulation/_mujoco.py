@@ -16,14 +16,13 @@ from types import ModuleType
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
+from dmpcpp._quiet import quiet
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
-from dmpcpp.robot._description import RobotDescription, describe, links_of
-from dmpcpp.robot._disturbance import Disturbance
-from dmpcpp.simulation._obstacles import Box, refuse_names
-from dmpcpp.simulation._quiet import quiet
+from dmpcpp.robot import Disturbance, RobotDescription, describe, links_of
+from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step
 
 _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
@@ -88,22 +87,22 @@ class MuJoCo:
 
     # ---- Simulator ---------------------------------------------------------------------------------------
 
-    def reset(self, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+    def reset(self, position: Array, velocity: Array) -> None:
         """Put the arm into a state."""
         self._m.mj_resetData(self._model, self._data)
         self._q[self._order], self._qd[self._order] = position, velocity
         self._look()
 
-    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def state(self) -> tuple[Array, Array]:
         """Position and velocity after the last step."""
         return self._q[self._order], self._qd[self._order]
 
     def inverse_dynamics(
         self,
-        acceleration: NDArray[np.float64],
-        position: NDArray[np.float64] | None = None,
-        velocity: NDArray[np.float64] | None = None,
-    ) -> NDArray[np.float64]:
+        acceleration: Array,
+        position: Array | None = None,
+        velocity: Array | None = None,
+    ) -> Array:
         """Torque for an acceleration of the arm's joints, by recursive Newton-Euler."""
         data = self._thought
         data.qpos[self._order] = self._q[self._order] if position is None else position
@@ -113,23 +112,23 @@ class MuJoCo:
         self._m.mj_comPos(self._model, data)
         self._m.mj_comVel(self._model, data)
         self._m.mj_rne(self._model, data, 1, self._torque)
-        torque: NDArray[np.float64] = (self._torque + self._damping * data.qvel)[self._order]
+        torque: Array = (self._torque + self._damping * data.qvel)[self._order]
         return torque
 
-    def apply_torque(self, torque: NDArray[np.float64]) -> None:
+    def apply_torque(self, torque: Array) -> None:
         """Torque of the next step."""
         self._applied[self._order] = torque
 
-    def servo(self, velocity: NDArray[np.float64]) -> None:
+    def servo(self, velocity: Array) -> None:
         """Torque that reaches the velocity within the step, clipped."""
         position, now = self.state()
         torque = self.inverse_dynamics((velocity - now) / self.time_step, position, now)
         torque += (self._model.dof_damping - self._damping)[self._order] * now
         self.apply_torque(np.clip(torque, -self._limit, self._limit))
 
-    def servo_torque(self) -> NDArray[np.float64]:
+    def servo_torque(self) -> Array:
         """Torque that ``servo`` gave."""
-        torque: NDArray[np.float64] = self._applied[self._order]
+        torque: Array = self._applied[self._order]
         return torque
 
     def step(self) -> None:
@@ -141,7 +140,7 @@ class MuJoCo:
         self._m.mj_Euler(self._model, self._data)
         self._look()
 
-    def tool_pose(self) -> NDArray[np.float64]:
+    def tool_pose(self) -> Array:
         """Pose of the tip in the base frame, by MuJoCo."""
         tip = self._pose(self._tip)
         return tip if self._base_is_root else np.linalg.inv(self._pose(self._base)) @ tip
@@ -158,12 +157,12 @@ class MuJoCo:
                 deepest[pair] = max(deepest.get(pair, 0.0), -distance)
         return [Contact(*pair, depth) for pair, depth in sorted(deepest.items())]
 
-    def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
+    def contacts_at(self, position: Array) -> list[Contact]:
         """Contacts with the arm put at a position."""
         self.reset(position, np.zeros_like(position))
         return self.contacts()
 
-    def clearances_at(self, position: NDArray[np.float64], within: float) -> list[Clearance]:
+    def clearances_at(self, position: Array, within: float) -> list[Clearance]:
         """Distances of every pair that may collide, with the arm put at a position."""
         self.reset(position, np.zeros_like(position))
         nearest: dict[tuple[str, str], float] = {}
@@ -227,7 +226,7 @@ class MuJoCo:
         self._base, self._tip = model.body(self.arm.base).id, model.body(self.arm.tip).id
         self._base_is_root = bool(np.array_equal(self._base_pose(), np.eye(4)))
 
-    def _base_pose(self) -> NDArray[np.float64]:
+    def _base_pose(self) -> Array:
         self._m.mj_kinematics(self._model, self._data)
         is_fixed = self._model.body_weldid[self._base] == 0
         return self._pose(self._base) if is_fixed else np.zeros((4, 4))
@@ -248,7 +247,7 @@ class MuJoCo:
         self._m.mj_fwdPosition(self._model, self._data)
         self._m.mj_fwdVelocity(self._model, self._data)
 
-    def _pose(self, body: int) -> NDArray[np.float64]:
+    def _pose(self, body: int) -> Array:
         pose = np.eye(4)
         pose[:3, :3] = self._data.xmat[body].reshape(3, 3)
         pose[:3, 3] = self._data.xpos[body]

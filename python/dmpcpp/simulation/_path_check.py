@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.checks import Check
-from dmpcpp.robot._description import links_of
+from dmpcpp.robot import links_of
 from dmpcpp.simulation._bullet import Bullet
 from dmpcpp.simulation._simulator import Clearance, Contact, Simulator, kind_of
 
@@ -29,7 +29,7 @@ class PathTolerances:
 
 def contacts_along(
     arm: Arm,
-    position: NDArray[np.float64],
+    position: Array,
     *,
     simulator: Callable[[Arm, float], Simulator] = Bullet,
 ) -> list[tuple[int, Contact]]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
 
 LEAD_ACCELERATION = 5.0  # rad/s^2 (m/s^2): gentle beside what arms can do (10 to 20)
 
@@ -29,16 +30,16 @@ class Reference:
         The steps that belong to the trajectory itself: those without lead-in, lead-out and settling.
     """
 
-    time: NDArray[np.float64]
-    position: NDArray[np.float64]
-    velocity: NDArray[np.float64]
-    acceleration: NDArray[np.float64]
+    time: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
     motion: slice
 
 
-States = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+States = tuple[Array, Array, Array]
 """Position, velocity and acceleration, (N, n) each."""
-Between = Callable[[JointTrajectory, NDArray[np.float64]], States]
+Between = Callable[[JointTrajectory, Array], States]
 """Interpolates a trajectory at times (N,)."""
 
 
@@ -86,7 +87,7 @@ def from_rest_to_rest(arm: Arm, joints: JointTrajectory, rate: float) -> Referen
     return sample(arm, joints, rate, settle=0.0, from_rest=True, consistent=False)
 
 
-def states_at(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
+def states_at(joints: JointTrajectory, time: Array) -> States:
     """Position, velocity and acceleration at ``time`` (N,) s after the first sample, by the quintic.
 
     Before the first sample and after the last the trajectory stands still there.
@@ -97,9 +98,7 @@ def states_at(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
     return position, np.where(moving, velocity, 0.0), np.where(moving, acceleration, 0.0)
 
 
-def _states(
-    joints: JointTrajectory, time: NDArray[np.float64], lead_in: float, lead_out: float, between: Between
-) -> States:
+def _states(joints: JointTrajectory, time: Array, lead_in: float, lead_out: float, between: Between) -> States:
     """The whole reference at ``time``, counted from the first sample of the trajectory."""
     end = joints.time[-1] - joints.time[0]
     early, late = time < 0.0, time > end
@@ -113,7 +112,7 @@ def _states(
     return position, velocity, acceleration
 
 
-def _ramp_duration(arm: Arm, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> float:
+def _ramp_duration(arm: Arm, position: Array, velocity: Array) -> float:
     """How long to take from ``velocity`` to rest: gently, but short of the joint limits if that can be."""
     speed = np.abs(velocity)
     gentle = float(np.max(1.5 * speed / LEAD_ACCELERATION))
@@ -123,9 +122,7 @@ def _ramp_duration(arm: Arm, position: NDArray[np.float64], velocity: NDArray[np
     return min(gentle, max(nearest, 0.02))
 
 
-def _ramp(
-    position: NDArray[np.float64], velocity: NDArray[np.float64], time: NDArray[np.float64], duration: float
-) -> States:
+def _ramp(position: Array, velocity: Array, time: Array, duration: float) -> States:
     """Slow down from ``velocity`` to rest within ``duration``, ``time`` (N,) >= 0 after ``position``.
 
     v(u) = v0 (1 - 3 u^2 + 2 u^3) with u = t / duration, peak acceleration 1.5 v0 / duration. A duration of 0
@@ -142,7 +139,7 @@ def _ramp(
     )
 
 
-def _quintic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
+def _quintic(joints: JointTrajectory, time: Array) -> States:
     """The piecewise quintic with position, velocity and acceleration of every sample: C2."""
     k, h, s = _intervals(joints.time, time)
     p, v, a = joints.position[k], joints.velocity[k], joints.acceleration[k]
@@ -158,7 +155,7 @@ def _quintic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
     )
 
 
-def _cubic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
+def _cubic(joints: JointTrajectory, time: Array) -> States:
     """The piecewise cubic with position and velocity of every sample (Hermite): C1."""
     k, h, s = _intervals(joints.time, time)
     p, v = joints.position[k], joints.velocity[k]
@@ -168,15 +165,13 @@ def _cubic(joints: JointTrajectory, time: NDArray[np.float64]) -> States:
     return p + s * (v + s * (c2 + s * c3)), v + s * (2 * c2 + s * 3 * c3), 2 * c2 + 6 * s * c3
 
 
-def _intervals(
-    knots: NDArray[np.float64], time: NDArray[np.float64]
-) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+def _intervals(knots: Array, time: Array) -> tuple[NDArray[np.intp], Array, Array]:
     """The sample before each time, the length (N, 1) of the interval that it opens, the time (N, 1) in it."""
     k = np.clip(np.searchsorted(knots, time, side="right") - 1, 0, len(knots) - 2)
     return k, (knots[k + 1] - knots[k])[:, None], (time - knots[k])[:, None]
 
 
-def _differences(position: NDArray[np.float64], dt: float) -> States:
+def _differences(position: Array, dt: float) -> States:
     velocity, acceleration = np.zeros_like(position), np.zeros_like(position)
     velocity[1:] = np.diff(position, axis=0) / dt
     acceleration[1:-1] = np.diff(position, n=2, axis=0) / dt**2

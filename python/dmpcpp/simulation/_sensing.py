@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections import deque
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp._typing import Array
+from dmpcpp.robot import Disturbance
 
-JointState = tuple[NDArray[np.float64], NDArray[np.float64]]
+JointState = tuple[Array, Array]
 
 
 class Sensors:

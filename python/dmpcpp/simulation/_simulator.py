@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 
 FLOOR = "floor"
@@ -81,48 +81,48 @@ class Simulator(Protocol):
     repaired_links: tuple[str, ...]
     """Links whose inertia is not one of a rigid body and was replaced (see ``robot_description``)."""
 
-    def reset(self, position: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+    def reset(self, position: Array, velocity: Array) -> None:
         """Put the arm into a state: (n,) rad and (n,) rad/s."""
 
-    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def state(self) -> tuple[Array, Array]:
         """Measured joint position (n,) rad and velocity (n,) rad/s."""
 
     def inverse_dynamics(
         self,
-        acceleration: NDArray[np.float64],
-        position: NDArray[np.float64] | None = None,
-        velocity: NDArray[np.float64] | None = None,
-    ) -> NDArray[np.float64]:
+        acceleration: Array,
+        position: Array | None = None,
+        velocity: Array | None = None,
+    ) -> Array:
         """Torque (n,) Nm for ``acceleration`` (n,) rad/s^2, gravity and the URDF's damping included.
 
         In the state of the arm, or in one that is given: ``position`` (n,) rad and ``velocity`` (n,) rad/s.
         """
 
-    def apply_torque(self, torque: NDArray[np.float64]) -> None:
+    def apply_torque(self, torque: Array) -> None:
         """Set the joint torque (n,) Nm of the next step."""
 
-    def servo(self, velocity: NDArray[np.float64]) -> None:
+    def servo(self, velocity: Array) -> None:
         """Let the engine's own motors bring the joints to ``velocity`` (n,) rad/s by the end of the next step.
 
         If the effort limits allow: within them the motors give whatever torque that takes.
         """
 
-    def servo_torque(self) -> NDArray[np.float64]:
+    def servo_torque(self) -> Array:
         """Torque (n,) Nm that the engine's motors gave in the last step."""
 
     def step(self) -> None:
         """Advance by ``time_step``."""
 
-    def tool_pose(self) -> NDArray[np.float64]:
+    def tool_pose(self) -> Array:
         """Measured pose (4, 4) of ``arm.tip`` by the engine's own forward kinematics."""
 
     def contacts(self) -> list[Contact]:
         """Contacts found in the last step: by Bullet at its start, by MuJoCo at its end."""
 
-    def contacts_at(self, position: NDArray[np.float64]) -> list[Contact]:
+    def contacts_at(self, position: Array) -> list[Contact]:
         """Contacts with the arm put at ``position`` (n,) rad, at rest; no dynamics. It stays there."""
 
-    def clearances_at(self, position: NDArray[np.float64], within: float) -> list[Clearance]:
+    def clearances_at(self, position: Array, within: float) -> list[Clearance]:
         """Pairs nearer than ``within`` [m] with the arm put at ``position`` (n,) rad, at rest. It stays there."""
 
     def __enter__(self) -> Self:

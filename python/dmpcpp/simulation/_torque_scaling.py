@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.simulation._bullet import Bullet
 from dmpcpp.simulation._simulator import Simulator
 
@@ -49,16 +49,16 @@ def torque_duration_factor(
     return float(1.0 / speed.min())
 
 
-def _rows(joints: JointTrajectory) -> zip[tuple[NDArray[np.float64], ...]]:
+def _rows(joints: JointTrajectory) -> zip[tuple[Array, ...]]:
     return zip(joints.position, joints.velocity, joints.acceleration, strict=True)
 
 
 def _terms(
     engine: Simulator,
-    position: NDArray[np.float64],
-    velocity: NDArray[np.float64],
-    acceleration: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], ...]:
+    position: Array,
+    velocity: Array,
+    acceleration: Array,
+) -> tuple[Array, ...]:
     """Torque without motion, and its terms in the speed and its square: told apart by going backwards."""
     engine.reset(position, np.zeros_like(velocity))
     gravity = engine.inverse_dynamics(np.zeros_like(acceleration))
@@ -69,7 +69,7 @@ def _terms(
     return gravity, 0.5 * (forward - backward), 0.5 * (forward + backward) - gravity
 
 
-def _first_root(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> NDArray[np.float64]:
+def _first_root(a: Array, b: Array, c: Array) -> Array:
     """Smallest root s > 0 of a s^2 + b s + c, infinity where there is none."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # a joint without a limit has a huge one
         root = np.sqrt(b * b - 4.0 * a * c)

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dmpcpp.checks import Check, Checked
+from dmpcpp._core import JointTrajectory
+from dmpcpp.checks import Check, Checked, Series
 from dmpcpp.metrics import angle_errors, position_errors
-from dmpcpp.robot._description import links_of
-from dmpcpp.robot.arms import acceleration_limit
+from dmpcpp.robot import LimitUse, links_of
 from dmpcpp.simulation._simulator import kind_of
 
 if TYPE_CHECKING:
@@ -57,10 +56,6 @@ class Verdict(Checked):
     caveat: str = ""
 
 
-ROUNDING = 1e-6
-"""What a limit forgives: a motion scaled to exactly a limit meets it only to rounding and tracking."""
-
-
 def judge(log: ExecutionLog, tolerances: Tolerances | None = None) -> Verdict:
     """Hold an execution against its tolerances.
 
@@ -69,30 +64,10 @@ def judge(log: ExecutionLog, tolerances: Tolerances | None = None) -> Verdict:
     """
     tolerances = tolerances or Tolerances()
     checks = [_finite(log)]
-    for group in (_tracking, _limits, _contacts, _inverse_kinematics, _model):
+    for group in (_tracking, _limits, _contacts):
         checks += group(log, tolerances)
+    checks += [*inverse_kinematics_checks(log.joints, tolerances), *_model(log, tolerances)]
     return Verdict(tuple(checks), log.caveat)
-
-
-@dataclass(frozen=True)
-class _Series:
-    """A quantity over time; ``where`` names the columns."""
-
-    time: NDArray[np.float64]
-    values: NDArray[np.float64]  # (N,) or (N, n)
-    where: tuple[str, ...] = field(default=("",))
-
-    def worst(self, pick: Callable[[NDArray[np.float64]], Any]) -> tuple[float, float | None, str]:
-        if self.values.size == 0:
-            return math.nan, None, "nothing was executed"
-        values = self.values.reshape(len(self.time), -1)
-        step, column = np.unravel_index(pick(values), values.shape)
-        return float(values[step, column]), float(self.time[step]), self.where[int(column)]
-
-
-def _at_most(name: str, series: _Series, limit: float, unit: str) -> Check:
-    value, time, detail = series.worst(np.argmax)
-    return Check(name, value <= limit + ROUNDING * abs(limit), value, limit, unit, time, detail)
 
 
 def _finite(log: ExecutionLog) -> Check:
@@ -119,31 +94,21 @@ def _tracking(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
         rmse = float(np.sqrt(np.mean(errors**2))) if errors.size else math.nan
         limit = getattr(tolerances, f"{name}_rmse")
         yield Check(f"tracking_{name}_rmse", rmse <= limit, rmse, limit, unit)
-        yield _at_most(f"tracking_{name}_max", _Series(time, errors), getattr(tolerances, f"{name}_max"), unit)
-    last = _Series(log.time[-1:], position_errors(log.desired_tool_pose[-1:], log.tool_pose[-1:]))
-    yield _at_most("settle_error", last, tolerances.settle_error, "m")
+        yield Series(time, errors).at_most(f"tracking_{name}_max", getattr(tolerances, f"{name}_max"), unit)
+    last = Series(log.time[-1:], position_errors(log.desired_tool_pose[-1:], log.tool_pose[-1:]))
+    yield last.at_most("settle_error", tolerances.settle_error, "m")
 
 
 def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
-    arm, names = log.arm, tuple(log.arm.joint_names)
-    margin = np.minimum(log.position - arm.lower, arm.upper - log.position)
-    value, time, detail = _Series(log.time, margin, names).worst(np.argmin)
-    limit = tolerances.joint_margin
-    yield Check("joint_margin", value >= limit - ROUNDING, value, limit, "rad", time, detail)
-    speed = _Series(log.time, np.abs(log.velocity) / arm.velocity_limit, names)
-    yield _at_most("velocity_ratio", speed, tolerances.velocity_ratio, "1")
-    yield _at_most("acceleration_ratio", _accelerations(log), tolerances.acceleration_ratio, "1")
-    torque = _Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, names)
-    yield _at_most("torque_ratio", torque, tolerances.torque_ratio, "1")
+    arm = log.arm
+    acceleration = np.diff(log.velocity, axis=0) * log.rate  # of the measured velocity, over a step
+    use = LimitUse.of(arm, log.time, log.position, log.velocity, acceleration)
+    yield from use.checks(tolerances.joint_margin, tolerances.velocity_ratio, tolerances.acceleration_ratio)
+    torque = Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, use.names)
+    yield torque.at_most("torque_ratio", tolerances.torque_ratio, "1")
     clipped = (np.abs(log.torque) >= arm.effort_limit).any(axis=1)
     when = float(log.time[np.argmax(clipped)]) if clipped.any() else None
     yield Check("torque_clipped", not clipped.any(), int(clipped.sum()), 0, "steps", when)
-
-
-def _accelerations(log: ExecutionLog) -> _Series:
-    """Differences of the measured velocity over a step, as ratios to what the maker allows (``arms``)."""
-    values = np.abs(np.diff(log.velocity, axis=0)) * log.rate / acceleration_limit(log.arm)
-    return _Series(log.time[1:], values, tuple(log.arm.joint_names))
 
 
 def _contacts(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
@@ -159,16 +124,17 @@ def _contacts(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
         yield Check(name, count <= limit, count, limit, "steps", deepest.time if deepest else None, detail)
 
 
-def _inverse_kinematics(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
-    report = getattr(log.joints, "report", None)
+def inverse_kinematics_checks(joints: JointTrajectory, tolerances: Tolerances) -> Iterator[Check]:
+    """Yield ik_position_residual and ik_angle_residual; nothing where the joints were not solved for."""
+    report = getattr(joints, "report", None)
     if report is None or len(report.position_error) == 0:
         return
     for name, errors, unit in (
         ("position", report.position_error, "m"),
         ("angle", report.angle_error, "rad"),
     ):
-        series = _Series(log.joints.time - log.joints.time[0], np.asarray(errors))
-        yield _at_most(f"ik_{name}_residual", series, getattr(tolerances, f"ik_{name}"), unit)
+        series = Series(joints.time - joints.time[0], np.asarray(errors))
+        yield series.at_most(f"ik_{name}_residual", getattr(tolerances, f"ik_{name}"), unit)
 
 
 def _model(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
@@ -178,4 +144,4 @@ def _model(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     limit = tolerances.repaired_inertias
     yield Check("inertia", len(links) <= limit, len(links), limit, "links", None, detail)
     mismatch = position_errors(log.arm.forward_kinematics(log.position), log.tool_pose)
-    yield _at_most("kinematics_mismatch", _Series(log.time, mismatch), tolerances.kinematics_mismatch, "m")
+    yield Series(log.time, mismatch).at_most("kinematics_mismatch", tolerances.kinematics_mismatch, "m")

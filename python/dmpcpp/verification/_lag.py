@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
 from dmpcpp._core import JointTrajectory
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.simulation._reference import states_at
+from dmpcpp.simulation import states_at
 from dmpcpp.verification._joint_log import JointLog
-
-Array = NDArray[np.float64]
 
 _GRID = 400  # times of the plan that are compared
 _STEP = 0.02  # s between the lags that are tried first: short beside any motion of an arm

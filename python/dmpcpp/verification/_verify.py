@@ -7,21 +7,19 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.signal import butter, sosfiltfilt
 
 from dmpcpp import metrics
 from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
+from dmpcpp.checks import Check, Checked
 from dmpcpp.comparison import MotionComparison, compare_motions
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export import JointSamples
-from dmpcpp.simulation import Check, Checked, ExecutionLog, Simulator, Tolerances, judge, path_checks
-from dmpcpp.simulation._reference import states_at
+from dmpcpp.simulation import ExecutionLog, Simulator, Tolerances, judge, path_checks, states_at
 from dmpcpp.verification._joint_log import JointLog
 from dmpcpp.verification._lag import estimate_lag
-
-Array = NDArray[np.float64]
 
 _AROUND = 1.0  # s of the log before and after the motion that are looked at too
 _COVERAGE = 0.99  # share of the plan that the log must hold

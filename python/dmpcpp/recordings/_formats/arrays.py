@@ -14,10 +14,11 @@ from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
+from dmpcpp._typing import Array
 from dmpcpp.errors import FileError, InvalidArgument, NotStated
 from dmpcpp.recordings._orientation import HELD_FIXED, from_matrices, from_quaternions, held_fixed, no_turn
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._sampling import Sampling, sampling
 from dmpcpp.recordings._statement import Stated
 from numpy.typing import NDArray

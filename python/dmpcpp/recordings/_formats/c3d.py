@@ -12,11 +12,12 @@ from pathlib import Path
 
 import numpy as np
 from dmpcpp._text import read_bytes
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._formats.c3d_parameters import ByteOrder, Parameters, byte_order, read_parameters
 from dmpcpp.recordings._markers import Markers, distinct
 from dmpcpp.recordings._reader import COMMON, marker_reader
-from dmpcpp.recordings._recording import Array, Axis
+from dmpcpp.recordings._recording import Axis
 from dmpcpp.recordings._sampling import sampling
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import LENGTH_UNITS, World

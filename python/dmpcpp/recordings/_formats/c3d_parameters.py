@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array
 from numpy.typing import NDArray
 
 __all__ = ["ByteOrder", "Parameters", "byte_order", "read_parameters"]

@@ -12,13 +12,13 @@ from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
-from dmpcpp._text import data_lines, read_text
+from dmpcpp._text import Cells, Row, data_lines, read_text, split_all
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Cells, Row, split_all
 from dmpcpp.recordings._markers import Markers, distinct
 from dmpcpp.recordings._orientation import from_quaternions
 from dmpcpp.recordings._reader import COMMON, Reader, no_orientation, pick_body
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import World
 

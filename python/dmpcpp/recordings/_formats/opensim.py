@@ -10,9 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from dmpcpp._text import read_text
+from dmpcpp._text import Cells, Row, read_text, split_all
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Cells, Row, split_all
 from dmpcpp.recordings._pose_columns import pose, stated_columns
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
 from dmpcpp.recordings._recording import Recording

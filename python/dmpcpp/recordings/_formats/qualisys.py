@@ -14,9 +14,8 @@ from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
-from dmpcpp._text import data_lines, number, read_text
+from dmpcpp._text import Cells, Row, data_lines, number, read_text, split_all
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._cells import Cells, Row, split_all
 from dmpcpp.recordings._markers import Markers, distinct
 from dmpcpp.recordings._orientation import from_matrices
 from dmpcpp.recordings._reader import COMMON, Reader, no_orientation, pick_body

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from dmpcpp._text import read_text
+from dmpcpp._text import Cells, read_text
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Cells
 from dmpcpp.recordings._columns import WHOLE, bodies_in, column, times_in, unit_of
 from dmpcpp.recordings._pose_columns import ANGLES, POSITION, pose, stated_columns
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._sampling import Sampling, sampling
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._table_lines import TableLines, shown, table_lines

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from dmpcpp._text import data_lines, read_text
+from dmpcpp._text import Cells, Row, data_lines, read_text, split_all
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Cells, Row, split_all
 from dmpcpp.recordings._markers import Markers, distinct
 from dmpcpp.recordings._reader import marker_reader
 from dmpcpp.recordings._statement import Stated

@@ -10,9 +10,8 @@ from __future__ import annotations
 from itertools import takewhile
 from pathlib import Path
 
-from dmpcpp._text import number, read_text
+from dmpcpp._text import Cells, Row, number, read_text, split_all
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Cells, Row, split_all
 from dmpcpp.recordings._markers import Markers, distinct
 from dmpcpp.recordings._reader import marker_reader
 from dmpcpp.recordings._statement import Stated

@@ -8,6 +8,8 @@ differs in its stroke as well.
 
 from dmpcpp.show.plot._execution import ErrorCurve, angle_error, paths, picture, position_error
 from dmpcpp.show.plot._learning import phase, spread
+from dmpcpp.show.plot._page import INK as INK
+from dmpcpp.show.plot._page import LEGEND as LEGEND
 from dmpcpp.show.plot._page import figure, png, save, svg
 from dmpcpp.show.plot._robot import joint_shares, shape
 from dmpcpp.show.plot._series import (

@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.show.plot._page import INK, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-Array = NDArray[np.float64]
 
 _BAND, _MEAN, _ONE = "#9FCBE8", "#0072B2", "#E69F00"
 _POINTS = 400

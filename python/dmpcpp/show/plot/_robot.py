@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.show.plot._page import FAINT, INK, plain, plain_3d
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-Array = NDArray[np.float64]
 
 _COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#1A1A1A")
 _STROKES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)))

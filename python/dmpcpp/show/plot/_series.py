@@ -6,14 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.show.plot._page import INK, plain, plain_3d
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-Array = NDArray[np.float64]
 
 _ORIGINAL: dict[str, Any] = {"color": "#56B4E9", "linewidth": 5.0, "solid_capstyle": "round", "zorder": 2}
 _STROKES: tuple[dict[str, Any], ...] = (

@@ -14,6 +14,9 @@ from pathlib import Path
 
 from dmpcpp._atomic import write_text
 from dmpcpp.show.report._page import html
+from dmpcpp.show.report._record import RunRecord as RunRecord
+from dmpcpp.show.report._record import drawn as drawn
+from dmpcpp.show.report._record import write_record as write_record
 from dmpcpp.show.report._run_folder import RunFolder, read_run
 
 __all__ = ["RunFolder", "html", "read_run", "write"]

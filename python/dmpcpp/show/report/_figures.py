@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp import _core
+from dmpcpp._typing import Array
 from dmpcpp.show import plot
 from dmpcpp.show.report._run_folder import RunFolder
 from dmpcpp.show.scene import triangles
-
-Array = NDArray[np.float64]
 
 __all__ = ["coordinates", "demonstrations", "errors", "joints", "path", "phase_and_kernels", "rotation", "still"]
 

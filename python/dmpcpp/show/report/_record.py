@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from dmpcpp._atomic import replacing
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import FileError, InvalidArgument
 from dmpcpp.show.plot import ErrorCurve
-
-Array = NDArray[np.float64]
 
 __all__ = ["RunRecord", "read_record", "write_record"]
 

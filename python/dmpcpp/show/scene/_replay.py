@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.show.scene._robot import ShownArm
 from dmpcpp.show.scene._server import serving
@@ -16,7 +17,6 @@ from dmpcpp.show.scene._server import serving
 if TYPE_CHECKING:
     from viser import ViserServer
 
-Array = NDArray[np.float64]
 Colour = tuple[int, int, int]
 
 __all__ = ["replay_page"]

@@ -8,18 +8,19 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
-from dmpcpp.robot._description import find_mesh
+from dmpcpp.robot import find_mesh
 
 if TYPE_CHECKING:
     from viser import ViserServer
     from yourdfpy import URDF
 
-__all__ = ["RobotShape", "ShownArm"]
+__all__ = ["RobotShape", "ShownArm", "triangles"]
 
 _GREY = (214, 218, 224)
 
@@ -48,12 +49,12 @@ class RobotShape:
             raise InvalidArgument(f"joints: shape {values.shape}, expected ({self.arm.joint_count},).")
         return self._others | dict(zip(self.arm.joint_names, values.tolist(), strict=True))
 
-    def base_to_root(self) -> NDArray[np.float64]:
+    def base_to_root(self) -> Array:
         """Return the pose (4, 4) of the robot's root in the frame of the arm's base."""
         base = self.model.get_transform(self.arm.base, self.model.base_link, collision_geometry=self.collision)
         return np.asarray(np.linalg.inv(base))
 
-    def triangles(self, joints: ArrayLike) -> NDArray[np.float64]:
+    def triangles(self, joints: ArrayLike) -> Array:
         """Return the corners (F, 3, 3) of its triangles [m] in the frame of the arm's base."""
         self.model.update_cfg(self.all_joints(joints))
         scene = self.model.collision_scene if self.collision else self.model.scene
@@ -146,3 +147,19 @@ def _middle_of_other_joints(model: URDF, arm: Arm) -> dict[str, float]:
         known = limit is not None and limit.lower is not None and limit.upper is not None
         middle[joint.name] = 0.5 * (limit.lower + limit.upper) if known else 0.0
     return {name: value for name, value in middle.items() if name not in arm.joint_names}
+
+
+def triangles(arm: Arm, joints: ArrayLike) -> Array:
+    """Return what the arm collides with at joints (K, n) [rad]: (K, F, 3, 3) corners of F triangles [m], in its base.
+
+    Other joints of the robot, such as fingers, are in the middle of their range.
+
+    Raises
+    ------
+    InvalidArgument
+        joints of another shape, or a mesh of the URDF can not be found or read.
+    MissingDependency
+        yourdfpy is not installed.
+    """
+    shape = RobotShape(arm)
+    return np.stack([shape.triangles(values) for values in np.atleast_2d(np.asarray(joints, dtype=np.float64))])

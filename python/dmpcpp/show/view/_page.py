@@ -10,19 +10,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm, PoseDmp
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.show.scene import ShownArm, serving
-from dmpcpp.show.scene._replay import draw_path, look_at, quaternion
+from dmpcpp.show.scene import ShownArm, draw_path, look_at, quaternion, serving
 from dmpcpp.show.view._session import Session, Shown
 
 if TYPE_CHECKING:
     from viser import ViserServer
-
-Array = NDArray[np.float64]
 
 __all__ = ["Page", "described", "serve"]
 

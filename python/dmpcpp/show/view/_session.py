@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDemonstration, PoseDmp, PoseRun, duration_factor
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDemonstration, PoseDmp, PoseRun
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import arms
-
-Array = NDArray[np.float64]
+from dmpcpp.planning import limit_factor
+from dmpcpp.robot import LimitUse
 
 __all__ = ["Choice", "Session", "Shown"]
 
@@ -91,7 +90,6 @@ class Session:
         own = model.rollout(dt=model.duration / _LEARNED)
         self._demonstration = PoseDemonstration(own.time, own.pose)
         self._stand = self._solver.follow(own).position[0]
-        self._acceleration_limit = arms.acceleration_limit(arm)
         self._learned: dict[tuple[float, int], PoseDmp] = {}
 
     @property
@@ -113,16 +111,10 @@ class Session:
         if not np.array_equal(choice.start, self._model.start):
             stand = self._solver.solve(choice.start, stand).joints
         joints = self._solver.follow(pose, time, start=stand, thorough=False)
-        limits = np.asarray(self._arm.velocity_limit), self._acceleration_limit
-        margin = np.minimum(joints.position - self._arm.lower, self._arm.upper - joints.position)
+        use = LimitUse.of(self._arm, joints.time, joints.position, joints.velocity, joints.acceleration)
+        shortest = choice.duration * limit_factor(self._arm, joints)
         return Shown(
-            time,
-            pose,
-            joints,
-            np.abs(joints.velocity).max(axis=0) / limits[0],
-            np.abs(joints.acceleration).max(axis=0) / limits[1],
-            margin.min(axis=0),
-            choice.duration * duration_factor(joints, *limits),
+            time, pose, joints, use.velocity.max(axis=0), use.acceleration.max(axis=0), use.margin.min(axis=0), shortest
         )
 
     def _model_of(self, choice: Choice) -> PoseDmp:

@@ -10,6 +10,7 @@ and of results must be the same files for every worker.
 """
 
 from dmpcpp.trials.batch._many import imitate_many
+from dmpcpp.trials.batch._table import first_line as first_line
 from dmpcpp.trials.batch._table import summary, write_tables
 from dmpcpp.trials.batch._task import Outcome, Task, carry_out, tasks
 

@@ -10,8 +10,9 @@ from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.planning import Placement
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.recordings import Recording
 
 __all__ = ["NOISE", "Change", "Noise", "drawn_placement", "noisy", "random_change", "random_motion"]
 

@@ -8,12 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from dmpcpp import imitation, metrics, motion, simulation
+from dmpcpp import imitation, metrics, motion
 from dmpcpp._core import Arm, InverseKinematics, PoseDmp
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.imitation import Imitation
-from dmpcpp.recordings._recording import Array, Recording
+from dmpcpp.learning import learn
+from dmpcpp.planning import clear_of_itself
+from dmpcpp.recordings import Recording
 from dmpcpp.robot import arms
+from dmpcpp.simulation import Bullet
 from dmpcpp.trials.generality._motions import NOISE, drawn_placement, noisy, random_change, random_motion
 
 __all__ = ["Result", "Trial", "attempt"]
@@ -98,7 +102,7 @@ def attempt(trial: Trial) -> Result:
     noise = NOISE[trial.noise]
     # Every level has its own noise on the same motion, and every arm the same samples.
     shown = noisy(clean, noise, np.random.default_rng([trial.seed, trial.index, list(NOISE).index(trial.noise)]))
-    model = imitation.learn(motion.demonstration(shown).smoothed())
+    model = learn(motion.demonstration(shown).smoothed())
     learned = metrics.compare(motion.poses(clean), model.rollout_at(clean.time).pose)
     changed, miss = _changed(model, change.goal, change.tempo)
     cause = _learning_cause(learned, miss, noise.position, noise.angle)
@@ -157,8 +161,7 @@ def _executed(
 def _follows(recording: Recording, arm: Arm) -> bool:
     """Whether the arm follows it where it is, without touching itself or the floor."""
     joints = InverseKinematics(arm).follow(motion.poses(recording), times=recording.time, thorough=False)
-    every = max(1, len(recording) // 100)
-    return joints.report.complete and not simulation.contacts_along(arm, joints.position[::every])
+    return joints.report.complete and clear_of_itself(arm, Bullet)(joints)
 
 
 def _imitated(recording: Recording, arm: Arm, **options: Any) -> tuple[Imitation | None, str]:

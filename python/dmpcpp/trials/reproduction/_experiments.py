@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dmpcpp._core import Demonstration, Dmp, DmpOptions, OrientationDemonstration, OrientationDmp
+from dmpcpp._typing import Array
 from dmpcpp.metrics import rotation_angles
-
-Array = NDArray[np.float64]
 
 DT = 0.005
 """The source's sampling interval [s]."""

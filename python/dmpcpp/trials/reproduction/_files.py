@@ -12,7 +12,7 @@ import numpy as np
 from dmpcpp._atomic import write_text
 from dmpcpp.metrics import rotation_angles
 from dmpcpp.show import plot
-from dmpcpp.show.plot._page import INK, LEGEND
+from dmpcpp.show.plot import INK, LEGEND
 from dmpcpp.trials.reproduction._experiments import TITLES, PositionExperiment, RotationExperiment
 from dmpcpp.trials.reproduction._repetition import NoiseLevel
 from dmpcpp.trials.reproduction._run import Reproduction

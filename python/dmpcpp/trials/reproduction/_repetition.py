@@ -8,14 +8,13 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._core import Demonstration, Dmp, DmpOptions, OrientationDemonstration, OrientationDmp
+from dmpcpp._typing import Array
 from dmpcpp.metrics import rotation_angles
 from dmpcpp.trials.reproduction._experiments import DT, PRESETS
-
-Array = NDArray[np.float64]
 
 NOISY_PRESETS = PRESETS | {"smoothed": lambda: DmpOptions(derivatives="smooth")}
 """The defaults learn a demonstration as it is, noise too; smoothing takes the noise out first."""

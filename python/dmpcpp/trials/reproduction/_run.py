@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.simulation import Check, Checked
 from dmpcpp.trials.reproduction import _repetition as repetition
 from dmpcpp.trials.reproduction._experiments import PositionExperiment, RotationExperiment, helix, rotation
 from dmpcpp.trials.reproduction._repetition import NoiseLevel

@@ -1,0 +1,202 @@
+"""The step from a model to joints: the path rolled out, followed by the arm, and slowed down to its limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dmpcpp import simulation
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, PoseTrajectory, duration_factor, stretched
+from dmpcpp._typing import Array
+from dmpcpp.planning._placement import Accept
+from dmpcpp.robot.arms import acceleration_limit
+from dmpcpp.simulation import Simulator
+
+__all__ = ["Engine", "Slowed", "Solution", "clear_of_itself", "limit_factor", "slowed", "solve"]
+
+Engine = Callable[..., Simulator]
+
+_SAMPLES = 1000  # of a path, at least
+_SAMPLES_PER_KERNEL = 10
+_INSET = 2e-3  # rad or m, kept off the position limits where the path allows: a spline overshoots its samples
+_RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
+_TORQUE_SHARE = 0.95  # of the effort limits; the rest is left to the feedback
+_BRANCHES = 12  # other starts that are tried where the best one is not accepted
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A motion and the joints that carry it out.
+
+    Attributes
+    ----------
+    motion : PoseTrajectory
+        Of the arm's tip in its base frame, at the samples of the joints.
+    joints : JointTrajectory
+        Its report says which poses are met.
+    slowdown : float
+        The duration over the one that was asked for, >= 1.
+    """
+
+    motion: PoseTrajectory
+    joints: JointTrajectory
+    slowdown: float
+
+
+@dataclass(frozen=True, eq=False)
+class Slowed:
+    """Joints within the limits.
+
+    Attributes
+    ----------
+    joints : JointTrajectory
+    factor : float
+        On their duration, >= 1.
+    possible : bool
+        False where no duration is enough: the motors cannot even hold the arm. The joints are as slow as the other
+        limits ask for.
+    """
+
+    joints: JointTrajectory
+    factor: float
+    possible: bool
+
+
+def solve(
+    model: PoseDmp,
+    arm: Arm,
+    *,
+    goal: ArrayLike | None = None,
+    duration: float | None = None,
+    start: ArrayLike | None = None,
+    stand: ArrayLike | None = None,
+    accept: Accept | None = None,
+    slow_down: bool = True,
+    engine: Engine | None = None,
+) -> Solution:
+    """Roll a model out and find the joints for it, as slow as the limits of the arm ask for.
+
+    Parameters
+    ----------
+    model : PoseDmp
+        Of poses of the arm's tip in its base frame.
+    arm : Arm
+    goal : array_like (4, 4), optional
+        By default as demonstrated.
+    duration : float, optional
+        s; by default as demonstrated.
+    start : array_like (n,), optional
+        Suggested joints at the first pose; where the path cannot be followed from there, others are searched.
+    stand : array_like (n,), optional
+        Joints in which the arm stands: the path is followed from there or not at all.
+    accept : JointTrajectory -> bool, optional
+        A last word on joints that follow the path; where it refuses, other branches are tried.
+    slow_down : bool
+        Take longer where velocity or acceleration limits ask for it.
+    engine : callable, optional
+        A physics engine; where given, the effort limits hold too.
+
+    Raises
+    ------
+    InvalidArgument
+        What `PoseDmp.rollout` and `InverseKinematics.follow` refuse.
+    """
+    wanted = model.duration if duration is None else duration
+    dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * model.options.basis_count)
+    motion = model.rollout(goal, wanted, dt)
+    joints = _followed(motion, arm, start, stand, accept)
+    if not slow_down:
+        return Solution(motion, joints, 1.0)
+    slow = slowed(arm, joints, engine)
+    if slow.factor > 1.0:
+        motion = model.rollout(goal, slow.factor * wanted, slow.factor * dt)
+    return Solution(motion, slow.joints, slow.factor)
+
+
+def limit_factor(arm: Arm, joints: JointTrajectory) -> float:
+    """Return the smallest factor on the duration with which velocity and acceleration limits hold; may be below 1."""
+    return duration_factor(joints, arm.velocity_limit, acceleration_limit(arm))
+
+
+def slowed(
+    arm: Arm, joints: JointTrajectory, engine: Engine | None = None, torque_share: float = _TORQUE_SHARE
+) -> Slowed:
+    """Slow joints down until the limits hold, with a reserve of 2 %.
+
+    Velocity and acceleration limits always; with an engine also `torque_share` of the effort limits.
+    """
+    factor = max(1.0, _RESERVE * limit_factor(arm, joints))
+    if not math.isfinite(factor):
+        return Slowed(joints, 1.0, False)
+    slow = stretched(joints, factor)
+    if engine is None:
+        return Slowed(slow, factor, True)
+    torque = simulation.torque_duration_factor(arm, slow, share=torque_share, simulator=engine)
+    if not math.isfinite(torque):
+        return Slowed(slow, factor, False)
+    factor *= max(1.0, torque)
+    return Slowed(stretched(joints, factor), factor, True)
+
+
+def clear_of_itself(arm: Arm, engine: Engine) -> Accept:
+    """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
+
+    def clear(joints: JointTrajectory) -> bool:
+        every = max(1, len(joints.time) // 100)
+        return not simulation.contacts_along(arm, joints.position[::every], simulator=engine)
+
+    return clear
+
+
+def _followed(
+    path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None, accept: Accept | None
+) -> JointTrajectory:
+    """Return joints along the path that are accepted; else the first complete ones, else those that meet most poses."""
+    best = _complete(path, arm, start, stand)
+    if not best.report.complete or accept is None or stand is not None or accept(best):
+        return best
+    solver = InverseKinematics(arm)
+    others = (solver.follow(path, start=branch.joints) for branch in islice(solver.branches(path.pose[0]), _BRANCHES))
+    return next((joints for joints in others if joints.report.complete and accept(joints)), best)
+
+
+def _complete(path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None) -> JointTrajectory:
+    found: list[JointTrajectory] = []
+    for joints in _attempts(path, arm, start, stand):
+        if joints.report.complete:
+            return joints
+        found.append(joints)
+    return max(found, key=lambda joints: joints.report.solved)
+
+
+def _attempts(
+    path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None
+) -> Iterator[JointTrajectory]:
+    """Yield joints along the path: off the position limits, then on them; from the joints given, then from any."""
+    inset = _inset(arm)
+    if stand is not None:
+        if _is_within(inset, stand):
+            yield InverseKinematics(inset).follow(path, start=stand)
+        yield InverseKinematics(arm).follow(path, start=stand)
+        return
+    for limited in (inset, arm):
+        solver = InverseKinematics(limited)
+        if start is not None:
+            yield solver.follow(path, start=np.clip(start, limited.lower, limited.upper))
+        yield solver.follow(path)
+
+
+def _is_within(arm: Arm, joints: ArrayLike) -> bool:
+    joints = np.asarray(joints)
+    return bool((joints >= arm.lower).all() and (joints <= arm.upper).all())
+
+
+def _inset(arm: Arm) -> Arm:
+    span: Array = arm.upper - arm.lower
+    room = np.where(np.isfinite(span), np.minimum(_INSET, 0.01 * span), 0.0)
+    return arm.with_limits(lower=arm.lower + room, upper=arm.upper - room)
