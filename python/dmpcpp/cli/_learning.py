@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from dmpcpp._typing import Array
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._options import arm_options, preparation_options, scale_range, taken_preparation
@@ -19,6 +18,7 @@ from dmpcpp.cli._tables import checks_table, note_style, way
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
+    from dmpcpp._typing import Array
     from dmpcpp.learning import Lesson
     from dmpcpp.planning import JointPlan
 
