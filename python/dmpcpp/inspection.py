@@ -24,6 +24,13 @@ from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.motion import LONGEST_GAP
 from dmpcpp.recordings import Markers, Reader, Recording, Stated, of_markers, prepared
+from dmpcpp.recordings._markers import Markers
+from dmpcpp.recordings._reader import Reader
+from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._registry import prepared
+from dmpcpp.recordings._rigid_body import of_markers
+from dmpcpp.recordings._stamps import too_many, usual_step
+from dmpcpp.recordings._statement import Stated
 
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 
@@ -41,6 +48,8 @@ _STAND_INS: dict[str, Any] = {
 }
 """What is taken for granted to see what else is to be stated; nothing else comes of it."""
 
+TAKEN = "taken: "
+"""What notes of a history begin with that name an assumption: `taken: NAME: what`."""
 _JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn can not be told from its reverse
 
 
@@ -73,6 +82,9 @@ class BodyReport:
     history: tuple[str, ...] = ()
     implausible: str = ""
     refused: str = ""
+    cycles: tuple[tuple[float, float], ...] = ()
+    segments: tuple[tuple[float, float], ...] = ()
+    made_up: str = ""
 
 
 @dataclass(frozen=True)
@@ -151,6 +163,8 @@ def inspect(
         reader, said = prepared(path, format, stated)
     except NotStated as error:
         return Inspection(path.name, "unknown", needed=dict.fromkeys(error.names, str(error)))
+    if markers is not None and reader.markers is not None:
+        return _of_markers(reader, path, said, body, markers)
     held = _attempt(lambda said: reader.call(reader.bodies, path, said), said)
     if held.result is None:
         return Inspection(path.name, reader.name, needed=held.needed)
@@ -262,6 +276,10 @@ def _assumed(found: Recording | Markers, needed: dict[str, str]) -> dict[str, st
         assumed["unit"] = "m"
     if "up_axis" not in needed and found.up_axis is None:
         assumed["up_axis"] = "z"
+    for note in found.history:
+        if note.startswith(TAKEN):
+            name, _, text = note.removeprefix(TAKEN).partition(": ")
+            assumed[name] = text
     return assumed
 
 
@@ -278,6 +296,8 @@ def _report(recording: Recording) -> BodyReport:
         rate=recording.rate,
         missing=int((~there).sum()),
         skipped=motion.skipped(recording.time),
+        made_up=_made_up(recording),
+        **_parts(recording),
         longest_gap=_longest_gap(recording.time, there),
         jumps=int((turned > _JUMP).sum()),
         noise_position=noise.position,
@@ -305,7 +325,7 @@ def _marker(markers: Markers, k: int) -> MarkerReport:
 
 def _steps(time: Array) -> tuple[float, float, float]:
     steps = np.diff(time)
-    return float(steps.min()), float(np.median(steps)), float(steps.max())
+    return float(steps.min()), usual_step(time), float(steps.max())
 
 
 def _turns(rotation: Array) -> Array:
@@ -327,12 +347,37 @@ def _longest_gap(time: Array, there: NDArray[np.bool_]) -> float:
     return max((gap.duration for gap in motion.gaps_in(time, there)), default=0.0)
 
 
+def _made_up(recording: Recording) -> str:
+    """Return why a recording needs more samples than it carries, "" of one that does not."""
+    there = int((~recording.missing).sum())
+    room = int(recording.missing.sum()) + motion.skipped(recording.time)
+    if not too_many(room, there):
+        return ""
+    return f"{room} samples would be made up from {there}. Check the times: specify the rate=... of the device."
+
+
+def _parts(recording: Recording) -> dict[str, Any]:
+    """Return the segments and cycles of a recording that is whole enough to look for them."""
+    try:
+        whole = motion.fill(recording, longest=max(recording.duration, LONGEST_GAP))
+    except InvalidArgument:
+        return {}
+    return {"cycles": motion.spans_of_cycles(whole), "segments": motion.spans_of_segments(whole)}
+
+
 def _problems(body: BodyReport) -> list[str]:
     if body.refused:
         return [f"{body.name}: {body.refused}"]
     problems = [f"{body.name}: {body.implausible}"] if body.implausible else []
+    if body.made_up:
+        problems.append(f"{body.name}: {body.made_up}")
     if body.longest_gap > LONGEST_GAP:
-        problems.append(f"{body.name}: a gap of {body.longest_gap:.3g} s, more than {LONGEST_GAP:g} s. Crop it out.")
+        allowed = float(np.ceil(100.0 * body.longest_gap) / 100.0)
+        problems.append(
+            f"{body.name}: a gap of {body.longest_gap:.3g} s, more than {LONGEST_GAP:g} s. longest_gap={allowed:g} "
+            f"fills it; "
+            "or use one side of it: `fit` and `imitate` take start, end and segment."
+        )
     if body.jumps:
         problems.append(
             f"{body.name}: the orientation jumps by more than 90 deg {body.jumps} times. Check the quaternion order "

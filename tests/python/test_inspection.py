@@ -15,6 +15,8 @@ COUNT = 400
 TIMES = 0.01 * np.arange(COUNT)
 HEADER = "time,x,y,z,qx,qy,qz,qw"
 
+RIGHT = "right (logs of Unity and of most headsets are left-handed)"
+
 
 def moving(position_noise=0.0, angle_noise=0.0) -> Recording:
     random = np.random.default_rng(4)
@@ -61,7 +63,7 @@ def test_noise_is_found_beside_gaps_and_nowhere_if_they_leave_too_little():
 
 
 def test_a_clean_recording_is_ready_and_its_figures_are_those_of_its_samples(tmp_path):
-    found = inspect(table(tmp_path / "a.csv", moving(1e-3)), unit="m", up_axis="z")
+    found = inspect(table(tmp_path / "a.csv", moving(1e-3)), unit="m", up_axis="z", handedness="right")
     body = found.bodies[0]
     assert found.ok and not found.needed and not found.assumed
     assert (found.format, found.held, body.name, body.samples) == ("table", ("pose",), "pose", COUNT)
@@ -73,7 +75,7 @@ def test_a_clean_recording_is_ready_and_its_figures_are_those_of_its_samples(tmp
 
 
 def test_what_was_taken_for_granted_is_told(tmp_path):
-    assert inspect(table(tmp_path / "a.csv")).assumed == {"unit": "m", "up_axis": "z"}
+    assert inspect(table(tmp_path / "a.csv")).assumed == {"unit": "m", "up_axis": "z", "handedness": RIGHT}
 
 
 @pytest.mark.parametrize(("lost", "gap", "ok"), [(range(50, 55), 0.06, True), (range(50, 80), 0.31, False)])
@@ -163,7 +165,7 @@ def test_the_command_leaves_with_2_and_one_line_where_the_file_can_not_be_read(t
 def test_the_command_prints_json(tmp_path):
     report = json.loads(run(table(tmp_path / "a.csv"), "--json").stdout)
     assert report["ok"] and report["bodies"][0]["samples"] == COUNT
-    assert report["assumed"] == {"unit": "m", "up_axis": "z"}
+    assert report["assumed"] == {"unit": "m", "up_axis": "z", "handedness": RIGHT}
 
 
 def test_stamps_that_jitter_are_shown_with_what_to_do(tmp_path):

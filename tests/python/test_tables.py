@@ -157,11 +157,14 @@ def test_a_tum_file_stays_one_with_a_byte_order_mark_and_with_lost_samples(tmp_p
 
 
 def test_numbers_without_names_are_to_be_named_by_number(tmp_path):
-    with pytest.raises(NotStated, match="line 1: 8 numbers and no line above that names them. State the columns"):
-        recordings.load(write(tmp_path / "a.csv", header=[]))
+    rows = ROWS[:, [1, 2, 3, 4, 5, 6, 7, 0]]
+    with pytest.raises(NotStated, match="line 1: 8 numbers and no line above that names them. Specify what each"):
+        recordings.load(write(tmp_path / "a.csv", rows, header=[]))
     with pytest.raises(NotStated, match="can not be told. It looks like a table of 8 columns: state columns="):
-        recordings.load(write(tmp_path / "a.txt", header=[]))
-    assert_same_motion(recordings.load(tmp_path / "a.txt", columns={name: place for place, name in enumerate(HEADER)}))
+        recordings.load(write(tmp_path / "a.txt", rows, header=[]))
+    columns = {name: (place + 7) % 8 for place, name in enumerate(HEADER)}
+    assert_same_motion(recordings.load(tmp_path / "a.txt", columns=columns))
+    assert_same_motion(recordings.load(tmp_path / "a.csv", layout="x,y,z,quat_xyzw,time"))
 
 
 @pytest.mark.parametrize(("cell", "missing"), [("NA", "na"), ("null", "null"), ("", "empty"), ("nan", "nan")])
@@ -185,12 +188,13 @@ def test_a_number_in_all_of_a_pose_is_asked_about(tmp_path, mark):
     assert np.flatnonzero(recordings.load(path, missing=mark).missing).tolist() == [4]
 
 
-def test_a_jump_to_the_very_origin_is_asked_about_and_a_motion_from_it_is_not(tmp_path):
+def test_samples_at_the_very_origin_are_lost_and_a_motion_from_it_is_not(tmp_path):
     rows = ROWS.copy()
     rows[4:6, 1:] = [0, 0, 0, 0, 0, 0, 1]
     path = write(tmp_path / "a.csv", rows)
-    with pytest.raises(InvalidArgument, match="line 6: x, y and z are 0, more than 3 times further.*state missing=0"):
-        recordings.load(path)
+    found = recordings.load(path)
+    assert np.flatnonzero(found.missing).tolist() == [4, 5]
+    assert any("2 samples of exactly 0, 0, 0 taken as lost (samples 4 to 5)" in note for note in found.history)
     assert np.flatnonzero(recordings.load(path, missing=0).missing).tolist() == [4, 5]
     assert len(recordings.load(path, missing="nan").time) == 12  # it is where it was
     rows = ROWS.copy()
@@ -352,5 +356,5 @@ def test_the_commands_take_what_tables_need_stated(tmp_path):
     refused = runner.invoke(main, ["inspect", str(path)])
     assert refused.exit_code == 3 and "--fixed-orientation" in refused.output
     refused = runner.invoke(main, ["inspect", str(path), "--fixed-orientation"])
-    assert refused.exit_code == 2 and "State --mend-times" in refused.output
+    assert refused.exit_code == 2 and "Specify --mend-times" in refused.output
     assert runner.invoke(main, ["inspect", str(path), "--fixed-orientation", "--mend-times"]).exit_code == 0

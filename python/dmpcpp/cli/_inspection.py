@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     from dmpcpp.inspection import BodyReport, Inspection
 
+_MOST_OF_IT = 0.9  # of the duration; a part that long is no news
+_SHOWN = 12  # parts whose times are listed
 _JITTER = 0.5  # of the usual step; a shorter one is worth a word
 
 
@@ -57,6 +59,7 @@ def _print(found: Inspection) -> None:
         _print_extents(console, found.bodies)
         _print_uneven(console, found.bodies)
         _print_history(console, found.bodies)
+        _print_parts(console, found.bodies)
     if found.markers:
         console.print(_markers_table(found))
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
@@ -71,13 +74,38 @@ def _print(found: Inspection) -> None:
 
 def _print_history(console: Console, bodies: tuple[BodyReport, ...]) -> None:
     """Print what was done while reading; what all bodies share once."""
-    shared = [note for note in bodies[0].history if all(note in body.history for body in bodies)]
+    shared = [note for note in _told(bodies[0]) if all(note in body.history for body in bodies)]
     for note in shared:
-        console.print(f"  {note}", style=note_style(note), markup=False, soft_wrap=True)
+        console.print(f"  {in_flags(note)}", style=note_style(note), markup=False, soft_wrap=True)
     for body in bodies:
-        for note in body.history:
+        for note in _told(body):
             if note not in shared:
-                console.print(f"  {body.name}: {note}", style=note_style(note), markup=False, soft_wrap=True)
+                console.print(f"  {body.name}: {in_flags(note)}", style=note_style(note), markup=False, soft_wrap=True)
+
+
+def _told(body: BodyReport) -> list[str]:
+    """Return the notes on a body; assumptions have lines of their own."""
+    return [note for note in body.history if not note.startswith("taken: ")]
+
+
+def _print_parts(console: Console, bodies: tuple[BodyReport, ...]) -> None:
+    """Print the cycles and the parts between rests, with the option that chooses one."""
+    for body in bodies:
+        for parts, one, several, option in (
+            (body.cycles, "cycle", "cycles", "--repetition"),
+            (body.segments, "motion between rests", "motions between rests", "--segment"),
+        ):
+            whole = len(parts) == 1 and parts[0][1] - parts[0][0] > _MOST_OF_IT * body.duration
+            if not parts or whole:
+                continue
+            times = ", ".join(f"{begin:.2f}-{end:.2f}" for begin, end in parts[:_SHOWN])
+            more = ", ..." if len(parts) > _SHOWN else ""
+            console.print(
+                f"  {body.name}: {len(parts)} {one if len(parts) == 1 else several} ({option} K uses one): "
+                f"{times}{more} s",
+                markup=False,
+                soft_wrap=True,
+            )
 
 
 def _table(title: str, *columns: str) -> Table:

@@ -23,10 +23,28 @@ _OPTIONS = (
     click.option(
         "--rate", type=float, metavar="HZ", help="Samples per second, of a file without times or in place of them."
     ),
+    click.option("--times", metavar="header|received", help="Which stamps of a bag or MCAP file count."),
+    click.option("--where", metavar="COLUMN=VALUE", help="Use only these rows of a table; several joined by commas."),
+    click.option(
+        "--episode", type=int, metavar="K", help="Episode of a data set; block of a table whose times restart."
+    ),
+    click.option(
+        "--rotation",
+        metavar="NAME",
+        help="What an orientation's numbers are: quat_xyzw, quat_wxyz, rotvec, ZYX, zyx, .., rot6d or mat9.",
+    ),
+    click.option(
+        "--layout", metavar="A,B,..", help="What columns without names hold: x,y,z,rotvec,gripper for instance."
+    ),
+    click.option(
+        "--dataset", metavar="PATH[,PATH]", help="Arrays that hold the poses: one, or position and orientation."
+    ),
     click.option("--up-axis", "--up", metavar="x|y|z", help="The recording's axis that points up."),
     click.option("--handedness", metavar="right|left", help="Of the recording's world; right unless given."),
     click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
-    click.option("--euler-order", metavar="ORDER", help="Of columns rx, ry, rz: ZYX moving axes, zyx fixed ones."),
+    click.option(
+        "--euler-order", metavar="ORDER", help="Of columns rx, ry, rz: ZYX moving axes, zyx fixed ones, or rotvec."
+    ),
     click.option("--angle-unit", metavar="deg|rad", help="Of columns rx, ry, rz."),
     click.option("--missing", metavar="empty|nan|WORD|N", help="How a table or array writes a sample that was lost."),
     click.option(
@@ -57,6 +75,12 @@ _NAMES = (
     "unit",
     "time_unit",
     "rate",
+    "times",
+    "where",
+    "episode",
+    "rotation",
+    "layout",
+    "dataset",
     "up_axis",
     "handedness",
     "quat_order",
@@ -72,8 +96,11 @@ _NAMES = (
 )
 
 
+_PREPARATION = ("start", "end", "longest_gap", "segment", "repetition", "resample")
+"""Parameters of `motion.Preparation` that messages propose."""
+
 _PARAMETER = re.compile(
-    rf"\b(?P<name>{'|'.join(_NAMES)})=(?P<value>'[^']*'|\{{[^}}]*\}}|\[[^\]]*\]|\.\.\.|-?[\w.+-]*\w)"
+    rf"\b(?P<name>{'|'.join((*_NAMES, *_PREPARATION))})=(?P<value>'[^']*'|\{{[^}}]*\}}|\[[^\]]*\]|\.\.\.|-?[\w.+-]*\w)"
 )
 
 
@@ -104,7 +131,7 @@ def flag(parameter: str) -> str:
     return "--" + parameter.replace("_", "-")
 
 
-def in_flags(message: str, options: Iterable[str] = _NAMES) -> str:
+def in_flags(message: str, options: Iterable[str] = (*_NAMES, *_PREPARATION)) -> str:
     """Return a message of the library with parameters as options of the command line: unit='cm' is --unit cm.
 
     `options` are the names of the options that the command has.

@@ -24,7 +24,7 @@ from dmpcpp.motion._poses import (
     turn_angles,
 )
 from dmpcpp.motion._preparation import Preparation, prepare
-from dmpcpp.motion._segmentation import cycles, segments, speed
+from dmpcpp.motion._segmentation import cycles, segments, spans_of_cycles, spans_of_segments, speed
 from dmpcpp.motion._smoothing import Noise, low_pass, noise, smooth, white_noise
 from dmpcpp.motion._timing import crop, refine, resample
 
@@ -60,6 +60,8 @@ __all__ = [
     "segments",
     "skipped",
     "smooth",
+    "spans_of_cycles",
+    "spans_of_segments",
     "speed",
     "split",
     "spread",

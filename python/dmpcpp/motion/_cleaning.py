@@ -15,7 +15,10 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._poses import complete, positive
 from dmpcpp.recordings import MIN_SAMPLES, Recording
 
-__all__ = ["LONGEST_GAP", "Gap", "fill", "gaps", "gaps_in", "outliers", "skipped", "split"]
+__all__ = ["Gap", "LONGEST_GAP", "check_made_up", "fill", "gaps", "gaps_in", "outliers", "skipped", "split"]
+from dmpcpp.motion._poses import positive
+from dmpcpp.recordings._recording import MIN_SAMPLES, Recording
+from dmpcpp.recordings._stamps import MADE_UP_EACH, MADE_UP_IN_ALL, too_many, usual_step
 
 LONGEST_GAP = 0.2
 """s; a hand turns back within a longer one, and nobody knows whether it did."""
@@ -52,7 +55,7 @@ def gaps_in(times: Array, there: NDArray[np.bool_]) -> tuple[Gap, ...]:
     """Return the gaps, as `gaps` does, of samples at times (T,) [s] of which some are there (T,): of a marker, say."""
     known = np.flatnonzero(there)
     time = times[known]
-    usual = float(np.median(np.diff(times)))
+    usual = usual_step(times)
     open_ = (np.diff(known) > 1) | (np.diff(time) > _SKIPPED * usual)
     return tuple(
         Gap(int(known[k]), int(known[k + 1]), float(time[k]), float(time[k + 1])) for k in np.flatnonzero(open_)
@@ -64,7 +67,7 @@ def skipped(times: Array) -> int:
     the usual (median) one leaves room for.
     """
     steps = np.diff(times)
-    usual = float(np.median(steps))
+    usual = usual_step(times)
     return int(np.sum(np.round(steps[steps > _SKIPPED * usual] / usual) - 1.0))
 
 
@@ -86,11 +89,21 @@ def fill(recording: Recording, longest: float = LONGEST_GAP) -> Recording:
         if gap.duration > longest:
             raise InvalidArgument(
                 f"position[{gap.first + 1}]: missing from {gap.start:.4g} to {gap.end:.4g} s, {gap.duration:.3g} s, "
-                f"expected gaps of at most {longest:g} s. Split the recording there, crop it, or allow longer gaps."
+                f"expected gaps of at most {longest:g} s. {_ways_out(gap, recording)}"
             )
     if not found:
         return recording
     return _filled(recording, found)
+
+
+def _ways_out(gap: Gap, recording: Recording) -> str:
+    """Return how to get around a gap that is too long."""
+    allowed = np.ceil(100.0 * gap.duration) / 100.0
+    before = f"end={np.floor(1e3 * gap.start) / 1e3:g} or " if gap.start > 0.0 else ""
+    return (
+        f"longest_gap={allowed:g} fills it; {before}start={np.ceil(1e3 * gap.end) / 1e3:g} uses one side of it only "
+        f"(the recording lasts {recording.duration:.4g} s)."
+    )
 
 
 def split(recording: Recording, longest: float = LONGEST_GAP) -> list[Recording]:
@@ -136,6 +149,7 @@ def _part(recording: Recording, begin: int, end: int, note: str) -> Recording:
 
 def _filled(recording: Recording, found: tuple[Gap, ...]) -> Recording:
     known = ~recording.missing
+    check_made_up(sum(_room(gap, usual_step(recording.time)) for gap in found), int(known.sum()))
     time = np.union1d(recording.time, _skipped(recording, found))
     position = PchipInterpolator(recording.time[known], recording.position[known])(time)
     rotation = Slerp(recording.time[known], Rotation.from_matrix(recording.rotation[known]))(time).as_matrix()
@@ -151,9 +165,29 @@ def _filled(recording: Recording, found: tuple[Gap, ...]) -> Recording:
     )
 
 
+def check_made_up(made_up: float, there: int) -> None:
+    """Refuse to add more samples than were recorded ones can carry.
+
+    Raises
+    ------
+    InvalidArgument
+        More than 10 for each of `there`, or more than 10^6.
+    """
+    if too_many(made_up, there):
+        raise InvalidArgument(
+            f"{made_up:.0f} samples would be made up from {there}, expected at most {MADE_UP_EACH} for each and "
+            f"{MADE_UP_IN_ALL:g} in all. Check the times: specify the rate=... of the device, or crop the gaps out."
+        )
+
+
+def _room(gap: Gap, usual: float) -> float:
+    """Return how many samples are made up in a gap."""
+    return float(gap.last - gap.first - 1 if gap.last > gap.first + 1 else round(gap.duration / usual) - 1)
+
+
 def _skipped(recording: Recording, found: tuple[Gap, ...]) -> Array:
     """Return the times [s] at which samples were never written."""
-    usual = float(np.median(np.diff(recording.time)))
+    usual = usual_step(recording.time)
     times: list[Array] = [np.empty(0)]
     for gap in found:
         if gap.last == gap.first + 1:

@@ -10,6 +10,8 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Recording
+from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._soundness import jumps
 
 __all__ = ["implausible", "plausible"]
 
@@ -46,10 +48,12 @@ def implausible(recording: Recording) -> str:
 
     It stands still: all of it lies in a box with a diagonal of less than 1 mm, turned by less than 0.5 deg from the
     first sample. Or it is too fast: its path is longer than 30 m/s times a window of 0.05 s, or times all of a shorter
-    recording. A single sample that lies elsewhere does not count, and samples may be missing.
+    recording. Or it is elsewhere within one step, and stays there. A single sample that lies elsewhere does not count,
+    and samples may be missing.
     """
     there = ~recording.missing
-    return _stillness(recording, there) or _haste(recording.time[there], recording.position[there])
+    time, position = recording.time[there], recording.position[there]
+    return _stillness(recording, there) or _haste(time, position) or _teleport(time, position)
 
 
 def _stillness(recording: Recording, there: NDArray[np.bool_]) -> str:
@@ -86,6 +90,20 @@ def _haste(time: Array, position: Array) -> str:
         f"moves at {pace[k]:.3g} m/s from {time[begin[k]]:.4g} to {time[end[k]]:.4g} s, expected at most "
         f"{_FASTEST:g} m/s: no hand moves so fast. State the unit of lengths (unit='cm', unit='mm'), the rate "
         "(rate=...) or the unit of times (time_unit='ms') that the recording has, or crop a jump out."
+    )
+
+
+def _teleport(time: Array, position: Array) -> str:
+    """Return where a body is elsewhere within one step, and stays there."""
+    found = jumps(time, position)
+    if not found:
+        return ""
+    k, distance = found[0]
+    more = f" and {len(found) - 1} more" if len(found) > 1 else ""
+    return (
+        f"jumps by {distance:.3g} m in one step between {time[k]:.4g} and {time[k + 1]:.4g} s{more}: no hand moves "
+        f"like "
+        f"that. Use the part before or behind it: end={time[k]:.4g} or start={time[k + 1]:.4g}."
     )
 
 

@@ -14,7 +14,7 @@ from dmpcpp.motion._smoothing import Noise, evenly_sampled, low_pass, noise
 from dmpcpp.motion._timing import resample
 from dmpcpp.recordings import MIN_SAMPLES, Recording
 
-__all__ = ["cycles", "segments", "speed"]
+__all__ = ["cycles", "segments", "spans_of_cycles", "spans_of_segments", "speed"]
 
 _REST = 0.05  # share of the peak speed below which a hand rests
 _AWAY, _BACK = 0.6, 0.45  # shares of the largest distance from home; apart, so that a hand that dithers counts once
@@ -62,11 +62,29 @@ def segments(
         In order, each from its own time 0; none for a recording that never moves.
     """
     _check_share("rest", rest)
+    spans, how = _segment_spans(recording, rest, shortest, pause, angle_weight)
+    return _cut(recording, spans, f"segment {{}} of {len(spans)} by speed{how}")
+
+
+def spans_of_segments(recording: Recording) -> tuple[tuple[float, float], ...]:
+    """Return begin and end [s] of each of the `segments`."""
+    spans, _ = _segment_spans(recording, _REST, 0.1, 0.1, 0.2)
+    return _times(recording, spans)
+
+
+def _segment_spans(
+    recording: Recording, rest: float, shortest: float, pause: float, angle_weight: float
+) -> tuple[list[Span], str]:
     pace, how = _pace(recording, rest, angle_weight)
     spans = _runs(pace > rest * pace.max())
     spans = _joined(recording.time, spans, pause)
-    spans = [(b, e) for b, e in spans if e - b >= MIN_SAMPLES and recording.time[e - 1] - recording.time[b] >= shortest]
-    return _cut(recording, spans, f"segment {{}} of {len(spans)} by speed{how}")
+    return [
+        (b, e) for b, e in spans if e - b >= MIN_SAMPLES and recording.time[e - 1] - recording.time[b] >= shortest
+    ], how
+
+
+def _times(recording: Recording, spans: list[Span]) -> tuple[tuple[float, float], ...]:
+    return tuple((float(recording.time[b]), float(recording.time[e - 1])) for b, e in spans)
 
 
 def cycles(
@@ -93,6 +111,18 @@ def cycles(
         One for each cycle, in order, each from its own time 0.
     """
     _check_share("rest", rest)
+    spans, how = _cycle_spans(recording, home, rest, angle_weight)
+    return _cut(recording, spans, f"cycle {{}} of {len(spans)}{how}")
+
+
+def spans_of_cycles(recording: Recording) -> tuple[tuple[float, float], ...]:
+    """Return begin and end [s] of each of the `cycles`."""
+    return _times(recording, _cycle_spans(recording, None, _REST, 0.2)[0])
+
+
+def _cycle_spans(
+    recording: Recording, home: ArrayLike | None, rest: float, angle_weight: float
+) -> tuple[list[Span], str]:
     home = complete(recording).position[0] if home is None else np.asarray(home, dtype=np.float64)
     if np.shape(home) != (3,) or not np.isfinite(home).all():
         raise InvalidArgument(f"home: {home}, expected (3,) finite numbers in m.")
@@ -101,8 +131,7 @@ def cycles(
     pace, how = _pace(recording, rest, angle_weight)
     resting = pace < rest * pace.max()
     stays = _stays_around(_excursions(share), share)
-    spans = [(_leaving(pace, resting, *a), _arrival(pace, resting, *b) + 1) for a, b in pairwise(stays)]
-    return _cut(recording, spans, f"cycle {{}} of {len(spans)}{how}")
+    return [(_leaving(pace, resting, *a), _arrival(pace, resting, *b) + 1) for a, b in pairwise(stays)], how
 
 
 def _pace(recording: Recording, rest: float, angle_weight: float) -> tuple[Array, str]:

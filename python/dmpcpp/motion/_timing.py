@@ -8,8 +8,11 @@ from scipy.spatial.transform import Rotation, RotationSpline
 
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.motion._gaps import check_made_up
 from dmpcpp.motion._poses import complete, continuous, positive, turn_angles
 from dmpcpp.recordings import MIN_SAMPLES, Recording
+from dmpcpp.recordings._recording import MIN_SAMPLES, Recording
+from dmpcpp.recordings._stamps import MADE_UP_IN_ALL
 
 __all__ = ["crop", "evaluated", "refine", "resample"]
 
@@ -60,6 +63,7 @@ def resample(recording: Recording, rate: float) -> Recording:
             f"rate: {rate:g} Hz gives {count} samples over {recording.duration:g} s, expected at least "
             f"{MIN_SAMPLES} and at most 1e7."
         )
+    check_made_up(count - len(recording), len(recording))
     time = np.minimum(np.arange(count) / rate, recording.duration)
     return evaluated(recording, time, f"resampled from {recording.rate:.4g} to {rate:g} Hz")
 
@@ -85,6 +89,9 @@ def refine(recording: Recording, distance: float, angle: float) -> Recording:
     complete(recording)
     moved = np.linalg.norm(np.diff(recording.position, axis=0), axis=1)
     parts = np.ceil(np.maximum(moved / distance, turn_angles(recording) / angle)).astype(int)
+    check_made_up(
+        float(np.maximum(parts, 1).sum()) - len(recording), MADE_UP_IN_ALL
+    )  # of one line: no data are made up
     spans = zip(recording.time[:-1], recording.time[1:], np.maximum(parts, 1), strict=True)
     inner = [np.linspace(a, b, n, endpoint=False) for a, b, n in spans]
     time = np.concatenate([*inner, recording.time[-1:]])

@@ -12,17 +12,18 @@ from dmpcpp._text import Cells
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._orientation import HELD_FIXED, REFUSE_ABOVE, from_euler, from_quaternions, held_fixed, no_turn
+from dmpcpp.recordings._cells import Cells
+from dmpcpp.recordings._orientation import REFUSE_ABOVE, no_turn
+from dmpcpp.recordings._representation import NUMBERED, QUATERNION, TURNS, oriented, turn_in
+from dmpcpp.recordings._soundness import lost_zeros, zero_note
 from dmpcpp.recordings._statement import Stated
 
-__all__ = ["ANGLES", "POSITION", "QUATERNION", "pose", "stated_columns"]
+__all__ = ["POSITION", "check_last_row", "pose", "stated_columns"]
 
 POSITION = ("x", "y", "z")
-QUATERNION = ("qx", "qy", "qz", "qw")
-ANGLES = ("rx", "ry", "rz")
-
+_LAST_ROW = ("m30", "m31", "m32", "m33")
 
 _LEAST_MARK = 999.0  # of numbers that are written in place of a sample: -999, 9999, -9999, ..
-_JUMP = 3.0  # times the largest other step: nobody starts or stops that suddenly at the very origin
 _ADVICE = " If this marks a lost sample, state missing='{}'."
 
 
@@ -46,26 +47,38 @@ def pose(
     InvalidArgument
         Naming line and column, or what must be stated (`NotStated`).
     """
-    fixed = "qx" not in where and "rx" not in where
-    names = (*POSITION, *(() if fixed else QUATERNION if "qx" in where else ANGLES))
+    kind = turn_in(where)
+    bottom = tuple(name for name in _LAST_ROW if name in where)
+    names = (*POSITION, *kind, *bottom)
     columns = [where[name] for name in names]
     values = _marking(cells, stated.missing).numbers(columns, [called(column) for column in columns])
     lost = np.isnan(values).any(axis=1) | _marked(values[:, :3], stated.missing)
+    notes: list[str] = []
     if stated.missing is None:
-        _check_marks(cells, values, lost)
-        _check_zeros(cells, values[:, :3], lost)
+        _check_marks(cells, values, lost, kind)
+        zeros = lost_zeros(values[:, :3], ~lost)
+        lost, notes = lost | zeros, zero_note(zeros)
     values[lost] = np.nan
-    rotation, notes = _turned(values[:, 3:], lost, stated)
-    return values[:, :3], rotation, notes
+    if bottom:
+        check_last_row(values[:, -len(bottom) :], lost)
+    end = len(POSITION) + len(kind)
+    rotation, told = oriented(values[:, 3:end], kind, stated, lost)
+    return values[:, :3], rotation, [*notes, *told]
 
 
-def _turned(values: Array, lost: NDArray[np.bool_], stated: Stated) -> tuple[Array, list[str]]:
-    """Return the rotations (T, 3, 3) of quaternions, angles or no columns (T, 4, 3 or 0), and what was mended."""
-    if values.shape[1] == len(QUATERNION):
-        return from_quaternions(values, "xyzw", missing=lost)
-    if values.shape[1] == len(ANGLES):
-        return from_euler(values, stated.euler_order, stated.angle_unit, lost), []
-    return held_fixed(lost), [HELD_FIXED]
+def check_last_row(rows: Array, lost: NDArray[np.bool_]) -> None:
+    """Refuse 4 x 4 matrices whose last row (T, 4) is not 0 0 0 1.
+
+    Raises
+    ------
+    InvalidArgument
+        With the index.
+    """
+    expected = np.array([0.0, 0.0, 0.0, 1.0])[-rows.shape[1] :]
+    wrong = ~lost & ~(np.abs(rows - expected).max(axis=1) <= 1e-6)
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        raise InvalidArgument(f"poses[{k}]: last row {rows[k]}, expected [0 0 0 1]. Are the matrices transposed?")
 
 
 def _marking(cells: Cells, missing: object) -> Cells:
@@ -107,7 +120,7 @@ def _turn_names(columns: Mapping[object, object], position_only: bool) -> tuple[
         if not position_only:
             raise no_turn("the columns stated")
         return ()
-    return ANGLES if any(name in columns for name in ANGLES) else QUATERNION
+    return next((kind for kind in TURNS if any(name in columns for name in kind)), QUATERNION)
 
 
 def _marked(position: Array, missing: object) -> NDArray[np.bool_]:
@@ -119,10 +132,10 @@ def _marked(position: Array, missing: object) -> NDArray[np.bool_]:
     return np.asarray((position == missing).all(axis=1))
 
 
-def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_]) -> None:
+def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_], kind: tuple[str, ...]) -> None:
     """Refuse a number that stands in all of a pose and can not: the mark of a lost sample that was not stated."""
     mark = values[:, 0]
-    with_quaternion = values.shape[1] == len(POSITION) + len(QUATERNION)
+    with_quaternion = kind in (QUATERNION, NUMBERED)
     impossible = np.abs(2.0 * np.abs(mark) - 1.0) > REFUSE_ABOVE if with_quaternion else np.abs(mark) >= _LEAST_MARK
     found = ~lost & impossible & (values == mark[:, None]).all(axis=1)
     if found.any():
@@ -130,18 +143,4 @@ def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_]) -> None:
         raise InvalidArgument(
             f"line {cells.rows[k][0]}: {mark[k]:.12g} in every column of the pose. If this marks a lost sample, state "
             f"missing={mark[k]:.12g}."
-        )
-
-
-def _check_zeros(cells: Cells, position: Array, lost: NDArray[np.bool_]) -> None:
-    """Refuse a jump to the very origin and back, which some systems write for a body that they do not see."""
-    zero = (position == 0.0).all(axis=1)
-    steps = np.linalg.norm(np.diff(position, axis=0), axis=1)
-    jumps = (zero[1:] != zero[:-1]) & ~lost[1:] & ~lost[:-1]
-    within = steps[~zero[1:] & ~zero[:-1] & ~lost[1:] & ~lost[:-1]]
-    if jumps.any() and len(within) and steps[jumps].min() > _JUMP * within.max():
-        k = int(np.argmax(zero))
-        raise InvalidArgument(
-            f"line {cells.rows[k][0]}: x, y and z are 0, more than {_JUMP:g} times further off than any other step. "
-            "If this marks a lost sample, state missing=0; if not, missing='nan'."
         )

@@ -14,8 +14,8 @@ from dmpcpp.recordings._statement import Stated
 
 __all__ = ["COMMON", "Reader", "marker_reader", "no_orientation", "pick_body"]
 
-COMMON = ("unit", "up_axis", "handedness", "mend_times")
-"""What most formats let the caller state."""
+COMMON = ("unit", "up_axis", "handedness", "mend_times", "rate", "time_unit", "missing", "episode")
+"""What every format of measured motion lets the caller specify."""
 
 _T = TypeVar("_T")
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -61,6 +62,7 @@ class Recording:
     source: str = ""
     up_axis: Axis | None = None
     history: tuple[str, ...] = ()
+    channels: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Take the arrays over as read-only float64 and check them."""
@@ -68,6 +70,7 @@ class Recording:
         object.__setattr__(self, "position", _owned("position", self.position))
         object.__setattr__(self, "rotation", _owned("rotation", self.rotation))
         object.__setattr__(self, "history", tuple(self.history))
+        object.__setattr__(self, "channels", {name: _owned(name, values) for name, values in self.channels.items()})
         _check_shapes(self.time, self.position, self.rotation)
         _check_time(self.time)
         missing = self.missing
@@ -112,6 +115,8 @@ class Recording:
 
     def with_(self, note: str, **changes: object) -> Recording:
         """Return a copy with the fields in `changes` replaced and `note` appended to its history."""
+        if "time" in changes:
+            changes = {"channels": {}, **changes}
         return replace(self, history=(*self.history, note), **changes)  # type: ignore[arg-type]
 
 

@@ -64,7 +64,7 @@ def sampling(
         notes = [_left_aside("times", stated.rate, _rate_of(times, stated.time_unit or unit))]
     elif rate is not None and rate != stated.rate:
         notes = [_left_aside("rate", stated.rate, rate)]
-    return Sampling(even, replace(stated, time_unit=None if stated.time_unit is None else "s"), notes)
+    return Sampling(even, replace(stated, rate=None, time_unit=None if stated.time_unit is None else "s"), notes)
 
 
 def _left_aside(what: str, stated: float, own: float | None) -> str:

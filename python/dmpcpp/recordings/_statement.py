@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
@@ -14,6 +15,10 @@ from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._orientation import QuatOrder
 from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._time_order import in_order
+from dmpcpp.recordings._recording import MIN_SAMPLES, Axis, Recording
+from dmpcpp.recordings._soundness import check_one_body, held_values, lost_zeros, zero_note
+from dmpcpp.recordings._stamps import without_bursts
+from dmpcpp.recordings._time_order import block, in_order
 from dmpcpp.recordings._world import Frame, Handedness, World
 
 __all__ = ["Stated", "times_at_rate"]
@@ -38,6 +43,22 @@ class Stated:
     rate : float, optional
         Samples per second [Hz] of a file without times. Stated of one that has them, it wins: samples are taken at even
         times, and the history tells what was left aside, with a warning where that differs by more than 20 %.
+    times : "header", "received", "log" or None
+        Which stamps of a bag or MCAP file count: those in the headers of the messages (None), or when the recorder
+        received each message ("log" is another name for it).
+    where : str or mapping, optional
+        Rows of a table that count: "COLUMN=VALUE", several joined by ",".
+    episode : int, optional
+        Which episode of a data set, by its index; of a table whose times begin anew, which block, from 0.
+    rotation : str, optional
+        What the numbers of an orientation are: "quat_xyzw", "quat_wxyz", "rotvec" (rotation vector), an order of Euler
+        angles, "rot6d" (first two rows of the matrix), "rot6d_columns" or "mat9". Another name for `quat_order` and
+        `euler_order` where it is one of theirs.
+    layout : str or sequence of str, optional
+        What the columns without names hold, in their order: "x", "y", "z", "time", "gripper", "skip", a rotation as
+        above, "euler", "mat12" (3 x 4) or "mat16" (4 x 4, row by row).
+    dataset : str, optional
+        Which arrays of a file of named arrays hold the poses: one name, or "POSITION,ORIENTATION".
     quat_order : "xyzw", "wxyz" or None
         Order of the quaternions of an array.
     euler_order : str, optional
@@ -69,6 +90,12 @@ class Stated:
     up_axis: Axis | None = None
     handedness: Handedness | None = None
     rate: float | None = None
+    times: Literal["header", "received", "log"] | None = None
+    where: str | Mapping[str, object] | None = None
+    episode: int | None = None
+    rotation: str | None = None
+    layout: str | Sequence[str] | None = None
+    dataset: str | None = None
     quat_order: QuatOrder | None = None
     euler_order: str | None = None
     angle_unit: Literal["deg", "rad"] | None = None
@@ -80,9 +107,35 @@ class Stated:
     fixed_orientation: bool | None = None
     mend_times: bool | None = None
 
+    def __post_init__(self) -> None:
+        """Read `rotation` as `quat_order` or `euler_order` where it is one of theirs."""
+        said = self.rotation
+        if said is None:
+            return
+        if said in ("quat_xyzw", "quat_wxyz"):
+            self._take("quat_order", said.removeprefix("quat_"))
+        elif isinstance(said, str) and (said == "rotvec" or sorted(said.lower()) == ["x", "y", "z"]):
+            self._take("euler_order", said)
+        elif said not in ("rot6d", "rot6d_columns", "mat9"):
+            raise InvalidArgument(
+                f"rotation: {said!r}, expected quat_xyzw, quat_wxyz, rotvec, ZYX or another order of Euler angles, "
+                "rot6d, rot6d_columns or mat9."
+            )
+
+    def _take(self, name: str, value: str) -> None:
+        other = getattr(self, name)
+        if other not in (None, value):
+            raise InvalidArgument(f"rotation, {name}: {self.rotation!r} and {other!r}, expected one of them.")
+        object.__setattr__(self, name, value)
+
     def names(self) -> tuple[str, ...]:
         """Return the names of what was stated."""
-        return tuple(field.name for field in fields(self) if getattr(self, field.name) is not None)
+        said = [field.name for field in fields(self) if getattr(self, field.name) is not None]
+        if self.rotation in ("quat_xyzw", "quat_wxyz"):
+            said.remove("quat_order")
+        elif self.rotation not in (None, "rot6d", "rot6d_columns", "mat9"):
+            said.remove("euler_order")
+        return tuple(said)
 
     def recording(
         self,
@@ -94,6 +147,7 @@ class Stated:
         source: str,
         notes: list[str],
         world: World | None = None,
+        channels: Mapping[str, Array] | None = None,
     ) -> Recording:
         """Return the Recording in metres and seconds from 0; arrays as they stand in the file, NaN where lost.
 
@@ -103,19 +157,54 @@ class Stated:
             An unknown unit, an implausible range or rate, or whatever `Recording` refuses.
         """
         frame = self._frame(world)
-        kept, mended = in_order(time, position, rotation, mend=self.mend_times)
-        time, position, rotation = time[kept], position[kept], rotation[kept]
+        kept, sorted_notes = self._kept(frame, time, position, rotation)
+        time, rate_notes = self._even(time[kept], frame)
+        position, rotation = frame.points(position[kept]), frame.rotations(rotation[kept])
+        lost, doubts = self._lost(frame.times(time), position, rotation)
+        position, rotation = _blanked(position, lost), _blanked(rotation, lost)
+        check_one_body(position[~np.isnan(position).any(axis=1)])
+        missing = _lost(np.isnan(position).all(axis=1))
         made = Recording(
             time=frame.times(time),
-            position=frame.points(position),
-            rotation=frame.rotations(rotation),
+            position=position,
+            rotation=rotation,
             body=body,
             source=source,
             up_axis=frame.up_axis,
-            history=(*notes, *mended, *_lost(np.isnan(position).all(axis=1)), *frame.notes(time)),
+            history=(*rate_notes, *notes, *sorted_notes, *doubts, *missing, *frame.notes(time)),
+            channels={name: values[kept] for name, values in (channels or {}).items()},
         )
         frame.check_step(made.time)
         return made
+
+    def _kept(self, frame: Frame, time: Array, *values: Array) -> tuple[NDArray[np.int_], list[str]]:
+        """Return which samples count, in the order of time, and what was done for it."""
+        rows, notes = block(time, self.episode)
+        if self.rate is not None:
+            return rows, notes
+        kept, sorted_notes = in_order(time[rows], *(array[rows] for array in values), mend=self.mend_times)
+        rows = rows[kept]
+        if len(rows) >= MIN_SAMPLES and np.isfinite(time[rows]).all():
+            kept, burst_notes = without_bursts(time[rows], values[0][rows], frame.clock)
+            rows, sorted_notes = rows[kept], [*sorted_notes, *burst_notes]
+        return rows, [*notes, *sorted_notes]
+
+    def _even(self, time: Array, frame: Frame) -> tuple[Array, list[str]]:
+        """Return the times, even ones at the stated rate in their place, and a note."""
+        if self.rate is None:
+            return time, []
+        from dmpcpp.recordings._sampling import sampling
+
+        sampled = sampling(len(time), self, times=lambda: time, unit=frame.time_unit)
+        return sampled.time / frame.clock, sampled.notes
+
+    def _lost(self, time: Array, position: Array, rotation: Array) -> tuple[NDArray[np.bool_], list[str]]:
+        """Return which samples are zeros or held values in place of lost ones; `missing="nan"` keeps them."""
+        if self.missing == "nan":
+            return np.zeros(len(time), dtype=bool), []
+        zeros = lost_zeros(position)
+        held, notes = held_values(time, _blanked(position, zeros), rotation)
+        return zeros | held, [*zero_note(zeros), *notes]
 
     def marker_set(
         self,
@@ -135,18 +224,28 @@ class Stated:
             See `recording`.
         """
         frame = self._frame(world)
-        kept, mended = in_order(time, position, mend=self.mend_times)
-        time, position = time[kept], position[kept]
+        kept, sorted_notes = self._kept(frame, time, position)
+        time, rate_notes = self._even(time[kept], frame)
+        position = frame.points(position[kept], markers=True)
+        names, position, zero_notes = (
+            _without_zeros(names, position) if self.missing != "nan" else (names, position, [])
+        )
         made = Markers(
             names=names,
             time=frame.times(time),
-            position=frame.points(position),
+            position=position,
             source=source,
             up_axis=frame.up_axis,
-            history=(*notes, *mended, *frame.notes(time)),
+            history=(*rate_notes, *notes, *sorted_notes, *zero_notes, *frame.notes(time)),
         )
         frame.check_step(made.time)
         return made
+
+    def order(self, usual: QuatOrder) -> tuple[QuatOrder, list[str]]:
+        """Return the order of quaternions: as specified, else the usual one of a format whose columns have no names."""
+        if self.quat_order is None:
+            return usual, [f"taken: quat_order: {usual}, as the format defines it"]
+        return self.quat_order, []
 
     def without(self, *names: str) -> Stated:
         """Return a copy in which the fields of these names are not stated."""
@@ -176,3 +275,31 @@ def times_at_rate(count: int, rate: float | None) -> Array:
 def _lost(missing: np.ndarray) -> list[str]:
     count = int(missing.sum())
     return [f"{count} of {len(missing)} samples are missing (the first: {int(np.argmax(missing))})"] if count else []
+
+
+def _blanked(values: Array, lost: NDArray[np.bool_]) -> Array:
+    """Return values (T, ...) with NaN where lost (T,); the array itself where nothing was."""
+    if not lost.any():
+        return values
+    values = values.copy()
+    values[lost] = np.nan
+    return values
+
+
+def _without_zeros(names: tuple[str, ...], position: Array) -> tuple[tuple[str, ...], Array, list[str]]:
+    """Return the markers that are not 0 throughout, their zeros among other positions as lost, and notes."""
+    absent = (np.isnan(position) | (position == 0.0)).all(axis=(0, 2)) & (position == 0.0).any(axis=(0, 2))
+    if absent.all():
+        return names, position, []
+    notes = []
+    if absent.any():
+        left_out = ", ".join(name for name, gone in zip(names, absent, strict=True) if gone)
+        notes = [f"markers left out, 0 throughout: {left_out}"]
+        names, position = tuple(np.array(names)[~absent].tolist()), position[:, ~absent]
+    for k, name in enumerate(names):
+        lost = lost_zeros(position[:, k])
+        if lost.any():
+            position = position.copy() if not position.flags.writeable else position
+            position[lost, k] = np.nan
+            notes += zero_note(lost, f"samples of {name}")
+    return names, position, notes

@@ -10,6 +10,7 @@ import numpy as np
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._recording import MIN_SAMPLES, Axis
+from dmpcpp.recordings._stamps import usual_step
 
 __all__ = ["LENGTH_UNITS", "LIKELY_STEP", "TIME_UNITS", "Frame", "Handedness", "World", "seconds"]
 
@@ -19,6 +20,7 @@ LENGTH_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
 _LARGEST_EXTENT = 5.0  # m; a limb's motion that is larger is more likely in another unit
+_FARTHEST = 100.0  # m; nobody walks farther within a motion capture volume
 _LEAST_EXTENT = 2e-5  # m; what moves less is below the noise of every recording system: more likely another unit
 _AT_REST = 1e-9  # m; what moves less does not move at all, and its unit can not be told
 LIKELY_STEP = (2e-4, 0.4)
@@ -34,11 +36,14 @@ class World:
     unit, time_unit : str, float or None
         As in `Stated`.
     up_axis : "x", "y", "z" or None
+    handedness : "right" or None
+        None: neither the file nor its format says it.
     """
 
     unit: str | float | None = None
     time_unit: str | float | None = None
     up_axis: Axis | None = None
+    handedness: Handedness | None = "right"
 
 
 class Frame:
@@ -66,6 +71,7 @@ class Frame:
         self.clock = seconds(self.time_unit)
         self.up_axis: Axis | None = world.up_axis if up_axis is None else up_axis
         self.mirror = self._mirror(handedness)
+        self.hand_assumed = handedness is None and world.handedness is None
 
     def times(self, time: Array) -> Array:
         """Return the times in s, the first 0."""
@@ -75,11 +81,11 @@ class Frame:
         with np.errstate(over="ignore"):  # what overflows is refused as not finite
             return (time - time[0]) * self.clock
 
-    def points(self, position: Array) -> Array:
-        """Return the points (..., 3) in m and right-handed, their range checked."""
+    def points(self, position: Array, *, markers: bool = False) -> Array:
+        """Return the points (..., 3) in m and right-handed, their range checked; of markers that of each by itself."""
         with np.errstate(over="ignore"):
             points = position * self.length
-        self._check_extent(points)
+        self._check_extent(points, markers)
         return points if self.mirror is None else points * self.mirror
 
     def rotations(self, rotation: Array) -> Array:
@@ -99,13 +105,15 @@ class Frame:
             notes.append(f"times converted from {_called(self.time_unit, 's')} to s")
         if time[0] != 0.0:
             notes.append(f"time counted from the first sample at {float(time[0]) * self.clock:.9g} s")
+        if self.hand_assumed:
+            notes.append("taken: handedness: right (logs of Unity and of most headsets are left-handed)")
         if self.mirror is not None:
             notes.append(f"left-handed world mirrored along {'xyz'[int(np.argmin(self.mirror))]}")
         return notes
 
     def check_step(self, time: Array) -> None:
         """Refuse steps that suggest another unit of time; `time` in s."""
-        step = float(np.median(np.diff(time)))
+        step = usual_step(time)
         low, high = LIKELY_STEP
         if self.time_unit is None and not low <= step <= high:
             raise InvalidArgument(
@@ -124,26 +132,51 @@ class Frame:
         signs["xyz".index("y" if self.up_axis == "z" else "z")] = -1.0
         return signs
 
-    def _check_extent(self, points: Array) -> None:
-        flat = points.reshape(-1, 3)
-        flat = flat[np.isfinite(flat).all(axis=1)]  # what is infinite is for Recording to name
-        if not len(flat) or isinstance(self.stated_unit, int | float):
+    def _check_extent(self, points: Array, markers: bool) -> None:
+        """Refuse a range that suggests another unit, unless the caller said the unit as a number.
+
+        A unit that the file states is contradicted only where a person cannot move so far.
+        """
+        if isinstance(self.stated_unit, int | float) or not points.size:
             return
-        with np.errstate(over="ignore"):
-            extent = np.ptp(flat, axis=0)
+        extent = _extent(points if markers else points.reshape(-1, 1, 3))
         axis = int(np.argmax(extent))
-        if self.stated_unit is None and extent[axis] > _LARGEST_EXTENT:
-            raise InvalidArgument(
-                f"position: {'xyz'[axis]} ranges over {extent[axis]:.4g} m, more than {_LARGEST_EXTENT:g}. "
-                "Are these millimetres, centimetres or inches? State unit='mm', 'cm' or 'in', or unit='m' if it is "
-                "right."
-            )
+        largest = _LARGEST_EXTENT if self.world.unit is None else _FARTHEST
+        if self.stated_unit is None and extent[axis] > largest:
+            raise self._too_far(axis, float(extent[axis]))
         if _AT_REST < extent[axis] < _LEAST_EXTENT:
             raise InvalidArgument(
                 f"position: {'xyz'[axis]} ranges over {extent[axis]:.3g} m only, less than {_LEAST_EXTENT:g}, taken as "
                 f"{_called(self.unit or 'm', 'm')}. State another unit, or if it is right the unit as a number of "
                 f"metres: unit={self.length:g}."
             )
+
+    def _too_far(self, axis: int, extent: float) -> InvalidArgument:
+        """Return the error for a range that no hand covers, with the units that would make it one."""
+        said = f"position: {'xyz'[axis]} ranges over {extent:.4g} m"
+        fitting = [name for name, length in LENGTH_UNITS.items() if 0.05 <= extent / self.length * length <= 5.0]
+        others = " or ".join(f"unit={name!r}" for name in fitting if name != self.unit)
+        if self.world.unit is not None:
+            other = f" Specify {others} if they are that" if others else ""
+            own = _called(self.world.unit, "m")
+            return InvalidArgument(
+                f"{said}, more than {_FARTHEST:g}, in the unit that the file states, {own}. Are the numbers in another "
+                f"unit?{other or ' Check the columns'}, or unit={self.length:g} if the file is right."
+            )
+        others = others or "unit='mm'"
+        return InvalidArgument(
+            f"{said}, more than {_LARGEST_EXTENT:g}. Are these millimetres, centimetres or inches? State {others}, or "
+            "unit='m' if it is right."
+        )
+
+
+def _extent(points: Array) -> Array:
+    """Return the largest range (3,) of any of the points (T, M, 3); infinite values are for Recording to name."""
+    finite = np.isfinite(points).all(axis=-1, keepdims=True)
+    low = np.where(finite, points, np.inf).min(axis=0)
+    high = np.where(finite, points, -np.inf).max(axis=0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.asarray(np.maximum(high - low, 0.0).max(axis=0))
 
 
 def seconds(unit: str | float | None) -> float:

@@ -69,7 +69,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     body = pick_body(body, tuple(held))
     values = file.cells.numbers([held[body][what] for what in _POSE], [f"{what} of {body!r}" for what in _POSE])
     lost = file.unseen(body)
-    rotation, notes = from_quaternions(values[:, 3:], "xyzw", missing=lost)
+    rotation, notes = from_quaternions(values[:, 3:], stated.quat_order or "xyzw", missing=lost)
     if body != "device":
         notes = ["in the frame of the glasses, which moves with the head", *notes]
     return stated.recording(
@@ -116,7 +116,7 @@ def _read(path: Path) -> _File:
 READER = Reader(
     name="aria",
     summary="a Project Aria CSV of hands or of the glasses' trajectory",
-    takes=COMMON,
+    takes=("quat_order", "rotation", *COMMON),
     recognises=lambda path, head: _TIME.encode() in head.split(b"\n", 1)[0],
     bodies=bodies,
     read=read,

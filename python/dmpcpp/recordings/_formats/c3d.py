@@ -144,5 +144,5 @@ READER = marker_reader(
     summary="a C3D file of markers",
     recognises=lambda path, head: path.suffix.lower() == ".c3d",
     markers=markers,
-    takes=("rate", "fixed_orientation", *COMMON),
+    takes=("fixed_orientation", *COMMON),
 )

@@ -154,7 +154,7 @@ def _about_z(angle: Array) -> Array:
 READER = Reader(
     name="deepmimic",
     summary='a DeepMimic humanoid clip: JSON with "Frames" of 44 numbers',
-    takes=(),
+    takes=("rate", "time_unit", "missing"),
     recognises=lambda path, head: head.lstrip().startswith(b"{"),
     bodies=bodies,
     read=read,

@@ -37,7 +37,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     body = pick_body(body, (_BODY,))
     where, cells = _read(path)
     values = cells.numbers([where[name] for name in _WANTED], list(_WANTED))
-    rotation, notes = from_quaternions(values[:, 3:], "wxyz")
+    rotation, notes = from_quaternions(values[:, 3:], stated.quat_order or "wxyz")
     time, start = _times(cells.rows)
     return stated.recording(
         time=time,
@@ -86,7 +86,7 @@ def _times(rows: list[Row]) -> tuple[Array, int]:
 READER = Reader(
     name="euroc",
     summary="a EuRoC CSV: timestamp, p_x .. q_z, ns and m",
-    takes=COMMON,
+    takes=("quat_order", "rotation", *COMMON),
     recognises=lambda path, head: bool(_HEAD.match(head)),
     bodies=bodies,
     read=read,

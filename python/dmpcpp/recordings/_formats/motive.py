@@ -73,7 +73,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     wanted = (*_POSITION, *_ROTATION)
     values = file.cells.numbers([where[key] for key in wanted], [f"{what} {axis} of {body!r}" for what, axis in wanted])
     lost = np.isnan(values).any(axis=1)
-    rotation, notes = from_quaternions(values[:, 3:], "xyzw", missing=lost)
+    rotation, notes = from_quaternions(values[:, 3:], stated.quat_order or "xyzw", missing=lost)
     return stated.recording(
         time=file.times(),
         position=np.where(lost[:, None], np.nan, values[:, :3]),
@@ -171,7 +171,7 @@ def _whole(
 READER = Reader(
     name="motive",
     summary="an OptiTrack Motive CSV of rigid bodies, bones or markers",
-    takes=("fixed_orientation", *COMMON),
+    takes=("fixed_orientation", "quat_order", "rotation", *COMMON),
     recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf").startswith(b"Format Version,"),
     bodies=bodies,
     read=read,

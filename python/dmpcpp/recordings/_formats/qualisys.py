@@ -150,7 +150,7 @@ def _first(row: tuple[int, list[str]], width: int, key: str) -> int:
 READER = Reader(
     name="qualisys",
     summary="a Qualisys TSV of markers (3D) or rigid bodies (6D)",
-    takes=("rate", "fixed_orientation", *COMMON),
+    takes=("fixed_orientation", *COMMON),
     recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf").startswith((b"NO_OF_FRAMES\t", b"FILE_VERSION\t")),
     bodies=bodies,
     read=read,

@@ -62,7 +62,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
             f"{body}: poses in several frames: {', '.join(sorted(track.frames))}. Record one of them."
         )
     stamps, values, notes = _ordered(track)
-    rotation, mended = from_quaternions(values[:, 3:], "xyzw")
+    rotation, mended = from_quaternions(values[:, 3:], stated.quat_order or "xyzw")
     time = np.array([float(stamp - stamps[0]) for stamp in stamps])
     start = f"time counted from the first stamp at {stamps[0]} ns"
     return stated.recording(
@@ -163,7 +163,7 @@ def _recognises(path: Path, head: bytes) -> bool:
 READER = Reader(
     name="ros",
     summary="a ROS 1 bag, ROS 2 bag folder or MCAP of poses, transforms or odometry",
-    takes=COMMON,
+    takes=("quat_order", "rotation", *COMMON),
     recognises=_recognises,
     bodies=bodies,
     read=read,

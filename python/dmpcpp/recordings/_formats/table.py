@@ -1,13 +1,14 @@
-"""CSV, TSV and other tables: one line a sample, columns found by their names or stated by the caller.
+"""CSV, TSV and other tables: one line a sample, columns found by their names or specified by the caller.
 
-`column_names` says which names are known; a name that holds a unit, `x [mm]` or `time_ms`, states it. A prefix
-(`hand_x`, `hand.qw`) names the body, so that one table can hold several.
+`_columns` says which names are known; a name that holds a unit, `x [mm]` or `time_ms`, states it. A prefix
+(`hand_x`, `hand.qw`) names the body, so that one table can hold several. A column such as `hand` or `take` can tell the
+rows of several bodies or takes apart, see `_keys`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,15 @@ from dmpcpp.recordings._columns import WHOLE, bodies_in, column, times_in, unit_
 from dmpcpp.recordings._pose_columns import ANGLES, POSITION, pose, stated_columns
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
 from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._cells import Cells
+from dmpcpp.recordings._clock import clock_texts
+from dmpcpp.recordings._columns import WHOLE, bodies_in, column, repeated, times_in, unit_of
+from dmpcpp.recordings._keys import Key, keys_in, rows_where
+from dmpcpp.recordings._layout import layout_of
+from dmpcpp.recordings._markers import Markers, distinct
+from dmpcpp.recordings._nameless import bodyless, from_shape, nameless
+from dmpcpp.recordings._pose_columns import POSITION, pose, stated_columns
+from dmpcpp.recordings._representation import ANGLES, VECTOR
 from dmpcpp.recordings._sampling import Sampling, sampling
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._table_lines import TableLines, shown, table_lines
@@ -27,6 +37,7 @@ __all__ = ["READER", "bodies", "read"]
 
 _SUFFIXES = (".csv", ".tsv")
 _TUM = ("x", "y", "z", "qx", "qy", "qz", "qw")  # columns behind the time
+_MOST_BODIES = 60  # values of a key that are listed as bodies
 
 
 @dataclass(frozen=True)
@@ -39,6 +50,8 @@ class _Table:
     time: int | None
     units: list[str]
     notes: list[str]
+    channels: dict[str, int] = field(default_factory=dict)
+    by_episode: bool = False  # whether rows were chosen by the episode
 
     def called(self, place: int) -> str:
         return f"column {self.header[place]!r}" if place < len(self.header) else f"column {place}"
@@ -52,12 +65,24 @@ class _Table:
             )
         if self.time is None:
             return sampling(len(self.cells.rows), stated)
-        return sampling(len(self.cells.rows), stated, times=self._times, unit=self.unit("time_unit", [self.time]))
+        return sampling(len(self.cells.rows), stated, times=self._times, unit=self.clock())
 
     def _times(self) -> Array:
         assert self.time is not None
+        read = clock_texts([cells[self.time].strip() if self.time < len(cells) else "" for _, cells in self.cells.rows])
+        if read is not None:
+            return read[0]
         cells = replace(self.cells, advice=" Where times are no numbers, state the sampling rate in Hz: rate=100.")
         return cells.numbers([self.time], [self.called(self.time)])[:, 0]
+
+    def clock(self) -> str | float | None:
+        """Return the unit of the times: by their look, or by the name of their column."""
+        assert self.time is not None
+        named = self.unit("time_unit", [self.time])
+        look = clock_texts(
+            [cells[self.time].strip() if self.time < len(cells) else "" for _, cells in self.cells.rows[:2]]
+        )
+        return look[1] if look is not None and (named is None or look[1] == "s") else named
 
     def unit(self, parameter: str, columns: list[int]) -> str | None:
         """Return the unit in the names of some columns, or in the line below them; None if there is none."""
@@ -67,25 +92,27 @@ class _Table:
     def world(self, body: str, stated: Stated) -> World:
         """Return the units that the names of the columns say, where the caller does not."""
         length = [self.bodies[body][name] for name in POSITION]
-        clock = [] if self.time is None else [self.time]
-        return World(
-            unit=None if stated.unit is not None else self.unit("unit", length),
-            time_unit=None if stated.time_unit is not None or stated.rate else self.unit("time_unit", clock),
-        )
+        known = None if self.time is None or stated.time_unit is not None or stated.rate else self.clock()
+        unit = self.unit("unit", length) or ("m" if "TCP_pose" in body else None)
+        return World(unit=None if stated.unit is not None else unit, time_unit=known, handedness=None)
 
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
-    """Return the bodies that the column names tell; "pose" for columns without a prefix."""
-    return tuple(_table(path, stated).bodies)
+    """Return the bodies that the column names or a key tell; "pose" for columns without a prefix."""
+    table, keys = _table(path, stated)
+    key = _body_key(table, keys)
+    return key.values if key is not None else tuple(table.bodies)
 
 
 def read(path: Path, body: str | None, stated: Stated) -> Recording:
     """Return one body of a table."""
-    table = _table(path, stated)
-    body = pick_body(body, tuple(table.bodies))
+    table, keys = _table(path, stated)
+    stated = _left_to_state(table, stated)
+    table, body = _chosen(table, keys, body)
     where = table.bodies[body]
-    if stated.angle_unit is None and "rx" in where:
-        unit = table.unit("angle_unit", [where[name] for name in ANGLES])
+    turn = next((kind for kind in (ANGLES, VECTOR) if kind[0] in where), ())
+    if stated.angle_unit is None and turn:
+        unit = table.unit("angle_unit", [where[name] for name in turn])
         stated = replace(stated, angle_unit=unit)  # type: ignore[arg-type]  # another unit is refused below
     position, rotation, notes = pose(table.cells, where, table.called, stated)
     sampled = table.sampling(stated)
@@ -97,17 +124,109 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         source=path.name,
         notes=[*table.notes, *sampled.notes, *notes],
         world=table.world(body, stated),
+        channels={name: _channel(table, place) for name, place in table.channels.items()},
     )
 
 
-def _table(path: Path, stated: Stated) -> _Table:
+def markers(path: Path, stated: Stated) -> Markers:
+    """Return all positions of a table as markers: landmarks of a hand, say."""
+    table, keys = _table(path, replace(stated, fixed_orientation=True))
+    stated = _left_to_state(table, stated)
+    for key in keys:
+        raise key.not_chosen()
+    called = [f"{axis} of {name!r}" for name in table.bodies for axis in POSITION]
+    columns = [where[axis] for where in table.bodies.values() for axis in POSITION]
+    cells = replace(table.cells, blank=True, nan=True)
+    points = cells.numbers(columns, called).reshape(len(cells.rows), len(table.bodies), 3)
+    points[np.isnan(points).any(axis=2)] = np.nan
+    sampled = table.sampling(stated)
+    return sampled.stated.marker_set(
+        time=sampled.time,
+        position=points,
+        names=distinct(list(table.bodies)),
+        source=path.name,
+        notes=[*table.notes, *sampled.notes],
+        world=table.world(next(iter(table.bodies)), stated),
+    )
+
+
+def _channel(table: _Table, place: int) -> Array:
+    cells = replace(table.cells, blank=True, nan=True)
+    return cells.numbers([place], [table.called(place)])[:, 0]
+
+
+def _body_key(table: _Table, keys: list[Key]) -> Key | None:
+    """Return the key whose values are the bodies of a table of one pose."""
+    alone = len(keys) == 1 and len(table.bodies) == 1 and len(keys[0].values) <= _MOST_BODIES
+    return keys[0] if alone and not keys[0].of_takes else None
+
+
+def _chosen(table: _Table, keys: list[Key], body: str | None) -> tuple[_Table, str]:
+    """Return the table with the rows of one body, and what it is called.
+
+    Raises
+    ------
+    NotStated
+        Rows of several bodies or takes, and none was chosen.
+    """
+    key = _body_key(table, keys)
+    if key is not None and body in key.values:
+        rows, notes = rows_where(table.header, table.cells.rows, {key.name: body})
+        cells = replace(table.cells, rows=rows)
+        (where,) = table.bodies.values()
+        return replace(table, cells=cells, bodies={str(body): where}, notes=[*table.notes, *notes]), str(body)
+    for each in keys:
+        raise each.not_chosen()
+    return table, pick_body(body, tuple(table.bodies))
+
+
+def _table(path: Path, stated: Stated) -> tuple[_Table, list[Key]]:
+    """Return the table, its rows chosen by what was specified, and the keys that are left to choose by."""
     lines = table_lines(read_text(path), stated.delimiter, _skipped(stated.skip_lines))
+    table = _read(lines, stated)
+    if stated.where is not None:
+        rows, notes = rows_where(lines.names, table.cells.rows, stated.where)
+        table = replace(table, cells=replace(table.cells, rows=rows), notes=[*table.notes, *notes])
+    used = [place for where in table.bodies.values() for place in where.values()]
+    used += [] if table.time is None else [table.time]
+    keys = keys_in(lines.names, table.cells.rows, used, table.time)
+    takes = [key for key in keys if key.of_takes and str(stated.episode) in key.values]
+    if stated.episode is not None and takes:
+        rows, notes = rows_where(lines.names, table.cells.rows, {takes[0].name: stated.episode})
+        table = replace(table, cells=replace(table.cells, rows=rows), notes=[*table.notes, *notes], by_episode=True)
+        keys = [key for key in keys if key is not takes[0]]
+    return table, keys
+
+
+def _left_to_state(table: _Table, stated: Stated) -> Stated:
+    """Return what was specified, with what the layout says of a rotation, without an episode that chose rows."""
+    if stated.layout is not None:
+        stated = layout_of(stated)[1]
+    return stated.without("episode") if table.by_episode else stated
+
+
+def _read(lines: TableLines, stated: Stated) -> _Table:
     columns = stated.columns
+    if stated.layout is not None:
+        layout, _ = layout_of(stated)
+        return _Table(
+            Cells(lines.rows),
+            lines.names,
+            {WHOLE: layout.where},
+            layout.where.get("time"),
+            [],
+            lines.notes,
+            layout.channels,
+        )
     if isinstance(columns, Mapping) and all(isinstance(place, int) for place in columns.values()):
         where = stated_columns(columns, lambda stated: _place(stated, {}), bool(stated.fixed_orientation))
         return _Table(Cells(lines.rows), lines.names, {WHOLE: where}, where.get("time"), lines.units, lines.notes)
     if not lines.names:
-        raise _nameless(lines)
+        shape = from_shape(lines)
+        if shape is None:
+            raise nameless(lines)
+        where, note = shape
+        return _Table(Cells(lines.rows), [], {WHOLE: where}, where.get("time"), [], [*lines.notes, note])
     if not lines.rows:
         raise InvalidArgument("a header line without lines of data.")
     return _named(lines, columns, bool(stated.fixed_orientation))
@@ -122,44 +241,47 @@ def _skipped(lines: int | None) -> int:
 
 
 def _named(lines: TableLines, columns: Mapping[str, str | int] | None, position_only: bool) -> _Table:
-    """Return the table under a header line, its columns stated by the caller or told by their names."""
+    """Return the table under a header line, its columns specified by the caller or told by their names."""
     cells, header = Cells(lines.rows), lines.names
     if columns is not None:
         places = {name: place for place, name in enumerate(header)}
         where = stated_columns(columns, lambda stated: _place(stated, places), position_only)
         return _Table(cells, header, {WHOLE: where}, where.get("time"), lines.units, lines.notes)
+    if twice := repeated(header):
+        name, first, second = twice
+        raise NotStated(
+            "columns",
+            f"columns: the name {name!r} stands twice in the header, in the columns {first} and {second} (from 0). "
+            f"Specify "
+            f"the columns by number: columns={{'time': ..., 'x': {first if name == 'x' else '...'}, ...}}.",
+        )
     found = bodies_in(header) or (bodies_in(header, position_only=True) if position_only else {})
     if not found:
-        raise _bodyless(header)
+        raise bodyless(lines)
     times = times_in(header)
     if len(times) > 1:
         raise NotStated("columns", f"{len(times)} columns of time in the header {shown(header)}. State the columns.")
-    return _Table(cells, header, found, times[0] if times else None, lines.units, lines.notes)
+    time, notes = (times[0], []) if times else _first_as_time(lines)
+    return _Table(cells, header, found, time, lines.units, [*lines.notes, *notes], _grippers(header))
 
 
-def _nameless(lines: TableLines) -> NotStated:
-    line, cells = lines.rows[0]
-    return NotStated(
-        "columns",
-        f"line {line}: {len(cells)} numbers and no line above that names them. State the columns by number from 0: "
-        "columns={'time': 0, 'x': 1, ..., 'qw': 7}.",
-    )
+def _first_as_time(lines: TableLines) -> tuple[int | None, list[str]]:
+    """Return the first column as time where it has no name and increases in equal steps that are no row numbers."""
+    if lines.names[0].strip() not in ("", "Unnamed: 0"):
+        return None, []
+    try:
+        first = np.array([float(cells[0]) for _, cells in lines.rows])
+    except (ValueError, IndexError):
+        return None, []
+    steps = np.diff(first)
+    if len(first) < 3 or not (steps > 0.0).all() or np.ptp(steps) > 0.5 * np.median(steps) or (first % 1 == 0.0).all():
+        return None, []
+    step = float(np.median(steps))
+    return 0, [f"taken: rate: the first column has no name and increases by {step:.4g}: taken as the times"]
 
 
-def _bodyless(header: list[str]) -> NotStated:
-    held = tuple(bodies_in(header, position_only=True))
-    if held:
-        return NotStated(
-            ("fixed_orientation", "columns"),
-            f"the columns of {', '.join(held[:5])} hold a position and no orientation in the header {shown(header)}. "
-            "State fixed_orientation=True to hold the tool's fixed, or the columns: columns={'time': ..., 'x': ..., "
-            "'y': ..., 'z': ..., 'qx': ..., ...}.",
-        )
-    return NotStated(
-        "columns",
-        f"no body with columns x y z qx qy qz qw in the header {shown(header)}. State the columns by name, "
-        "columns={'time': ..., 'x': ..., ..., 'qw': ...}, or skip_lines=N where the header stands N lines below.",
-    )
+def _grippers(header: list[str]) -> dict[str, int]:
+    return {name: place for place, name in enumerate(header) if "gripper" in name.lower()}
 
 
 def _place(stated: object, places: Mapping[str, int]) -> int:
@@ -181,6 +303,8 @@ def _recognises(path: Path, head: bytes) -> bool:
     except InvalidArgument:
         return False
     found = bodies_in(lines.names) if lines.rows else {}
+    if not lines.names and lines.rows and len(lines.rows[0][1]) == 12 and from_shape(lines) is not None:
+        return True
     return bool(found) and not (lines.commented and lines.delimiter == " " and _is_tum(lines.names, found))
 
 
@@ -193,15 +317,16 @@ def _is_tum(header: list[str], found: dict[str, dict[str, int]]) -> bool:
 
 READER = Reader(
     name="table",
-    summary="a CSV or TSV with a header line, or any table with stated columns",
+    summary="a CSV or TSV with a header line, or any table with specified columns",
     takes=(
         "columns",
+        "layout",
+        "where",
         "delimiter",
         "skip_lines",
-        "rate",
-        "time_unit",
-        "missing",
         "fixed_orientation",
+        "rotation",
+        "quat_order",
         "euler_order",
         "angle_unit",
         *COMMON,
@@ -209,4 +334,5 @@ READER = Reader(
     recognises=_recognises,
     bodies=bodies,
     read=read,
+    markers=markers,
 )

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from dmpcpp._text import Cells, data_lines, read_text, split_all
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.recordings._cells import Cells, split_all
+from dmpcpp.recordings._orientation import QuatOrder
 from dmpcpp.recordings._pose_columns import pose
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
 from dmpcpp.recordings._recording import Recording
@@ -18,7 +20,6 @@ from dmpcpp.recordings._world import World
 __all__ = ["READER", "bodies", "read"]
 
 _COLUMNS = ("t", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
-_WHERE = {name.removeprefix("t"): column for column, name in enumerate(_COLUMNS) if column > 0}
 _BODY = "pose"
 
 
@@ -32,16 +33,22 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     """Return the trajectory; the format says s and m, but not which axis is up."""
     body = pick_body(body, (_BODY,))
     cells = _cells(path)
-    position, rotation, notes = pose(cells, _WHERE, _COLUMNS.__getitem__, stated)
+    order, told = stated.order("xyzw")
+    position, rotation, notes = pose(cells, _where(order), _COLUMNS.__getitem__, stated)
     return stated.recording(
         time=cells.numbers([0], ["t"])[:, 0],
         position=position,
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=notes,
+        notes=[*told, *notes],
         world=World(unit="m", time_unit="s"),
     )
+
+
+def _where(order: QuatOrder) -> dict[str, int]:
+    """Return the columns by what they hold, the quaternion in an order."""
+    return {"x": 1, "y": 2, "z": 3, **{f"q{part}": 4 + k for k, part in enumerate(order)}}
 
 
 def _cells(path: Path) -> Cells:
@@ -75,7 +82,7 @@ def _is_number(cell: bytes) -> bool:
 READER = Reader(
     name="tum",
     summary="a TUM trajectory: lines of t tx ty tz qx qy qz qw, s and m",
-    takes=("missing", *COMMON),
+    takes=("quat_order", "rotation", *COMMON),
     recognises=_recognises,
     bodies=bodies,
     read=read,
