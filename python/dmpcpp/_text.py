@@ -48,6 +48,8 @@ def read_text(path: Path) -> str:
     if nul >= 0:
         line = content.count(b"\n", 0, nul) + 1
         raise InvalidArgument(f"line {line}: binary content, expected text.")
+    if b"\n" not in content:
+        content = content.replace(b"\r", b"\n")  # line ends of old Macs
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -23,14 +23,16 @@ from dmpcpp import motion
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.motion import LONGEST_GAP
-from dmpcpp.recordings import Markers, Reader, Recording, Stated, of_markers, prepared
-from dmpcpp.recordings._markers import Markers
-from dmpcpp.recordings._reader import Reader
-from dmpcpp.recordings._recording import Recording
-from dmpcpp.recordings._registry import prepared
-from dmpcpp.recordings._rigid_body import of_markers
-from dmpcpp.recordings._stamps import too_many, usual_step
-from dmpcpp.recordings._statement import Stated
+from dmpcpp.recordings import (
+    Markers,
+    Reader,
+    Recording,
+    Stated,
+    of_markers,
+    prepared,
+    too_many,
+    usual_step,
+)
 
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 
@@ -44,6 +46,8 @@ _STAND_INS: dict[str, Any] = {
     "euler_order": "ZYX",
     "angle_unit": "rad",
     "index": 0,
+    "episode": 0,
+    "times": "received",
     "fixed_orientation": True,
 }
 """What is taken for granted to see what else is to be stated; nothing else comes of it."""
@@ -111,6 +115,8 @@ class Inspection:
     bodies : tuple of BodyReport
         Of the bodies that were looked at.
     markers : tuple of MarkerReport
+    markers_held : tuple of str
+        Names of the markers that the file holds beside bodies.
     samples : int, duration : float, rate : float
         Of the markers, where the file holds markers only.
     needed : dict
@@ -127,6 +133,7 @@ class Inspection:
     samples: int = 0
     duration: float = 0.0
     rate: float = 0.0
+    markers_held: tuple[str, ...] = ()
     needed: dict[str, str] = field(default_factory=dict)
     assumed: dict[str, str] = field(default_factory=dict)
 
@@ -170,7 +177,18 @@ def inspect(
         return Inspection(path.name, reader.name, needed=held.needed)
     if markers is not None or (not held.result and reader.markers is not None):
         return _of_markers(reader, path, said, body, markers)
-    return _of_bodies(reader, path, said, held.result, body)
+    return replace(_of_bodies(reader, path, said, held.result, body), markers_held=_beside(reader, path, said))
+
+
+def _beside(reader: Reader, path: Path, said: Stated) -> tuple[str, ...]:
+    """Return the markers that a file holds beside its bodies."""
+    if reader.markers is None or reader.name == "table":
+        return ()  # of a table every position would be one
+    try:
+        found = _attempt(partial(reader.call, reader.markers, path), said).result
+    except InvalidArgument:
+        return ()
+    return () if found is None else found.names
 
 
 @dataclass(frozen=True)

@@ -62,6 +62,11 @@ def _print(found: Inspection) -> None:
         _print_parts(console, found.bodies)
     if found.markers:
         console.print(_markers_table(found))
+    if found.held and not found.bodies:
+        console.print(f"bodies: {', '.join(found.held)}", markup=False, soft_wrap=True)
+    if found.markers_held:
+        held = ", ".join(found.markers_held)
+        console.print(f"markers beside the bodies (--markers A,B,C): {held}", markup=False, soft_wrap=True)
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
         for name, text in entries.items():
             said = in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line

@@ -13,12 +13,9 @@ from scipy.spatial.transform import Rotation, Slerp
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._poses import complete, positive
-from dmpcpp.recordings import MIN_SAMPLES, Recording
+from dmpcpp.recordings import MADE_UP_EACH, MADE_UP_IN_ALL, MIN_SAMPLES, Recording, too_many, usual_step
 
-__all__ = ["Gap", "LONGEST_GAP", "check_made_up", "fill", "gaps", "gaps_in", "outliers", "skipped", "split"]
-from dmpcpp.motion._poses import positive
-from dmpcpp.recordings._recording import MIN_SAMPLES, Recording
-from dmpcpp.recordings._stamps import MADE_UP_EACH, MADE_UP_IN_ALL, too_many, usual_step
+__all__ = ["LONGEST_GAP", "Gap", "check_made_up", "fill", "gaps", "gaps_in", "outliers", "skipped", "split"]
 
 LONGEST_GAP = 0.2
 """s; a hand turns back within a longer one, and nobody knows whether it did."""

@@ -9,9 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings import Recording
-from dmpcpp.recordings._recording import Recording
-from dmpcpp.recordings._soundness import jumps
+from dmpcpp.recordings import Recording, jumps
 
 __all__ = ["implausible", "plausible"]
 

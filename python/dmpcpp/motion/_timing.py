@@ -8,11 +8,9 @@ from scipy.spatial.transform import Rotation, RotationSpline
 
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.motion._gaps import check_made_up
+from dmpcpp.motion._cleaning import check_made_up
 from dmpcpp.motion._poses import complete, continuous, positive, turn_angles
-from dmpcpp.recordings import MIN_SAMPLES, Recording
-from dmpcpp.recordings._recording import MIN_SAMPLES, Recording
-from dmpcpp.recordings._stamps import MADE_UP_IN_ALL
+from dmpcpp.recordings import MADE_UP_IN_ALL, MIN_SAMPLES, Recording
 
 __all__ = ["crop", "evaluated", "refine", "resample"]
 

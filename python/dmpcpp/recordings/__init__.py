@@ -28,6 +28,11 @@ from dmpcpp.recordings._recording import Axis as Axis
 from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._registry import prepared, reader_of, summaries
 from dmpcpp.recordings._rigid_body import of_markers, rigid_body
+from dmpcpp.recordings._soundness import jumps as jumps
+from dmpcpp.recordings._stamps import MADE_UP_EACH as MADE_UP_EACH
+from dmpcpp.recordings._stamps import MADE_UP_IN_ALL as MADE_UP_IN_ALL
+from dmpcpp.recordings._stamps import too_many as too_many
+from dmpcpp.recordings._stamps import usual_step as usual_step
 from dmpcpp.recordings._statement import Stated
 
 __all__ = [

@@ -9,8 +9,8 @@ from datetime import UTC, datetime
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._recording import Array
 
 __all__ = ["clock_texts"]
 

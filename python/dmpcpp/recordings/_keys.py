@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dmpcpp._text import Row
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._cells import Row
 
 __all__ = ["Key", "keys_in", "rows_where"]
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._layout import layout_of
 from dmpcpp.recordings._number_table import NumberTable
 from dmpcpp.recordings._pose_columns import check_last_row, pose
-from dmpcpp.recordings._recording import Array
 from dmpcpp.recordings._representation import ANGLES, CELLS, NUMBERED, QUATERNION, SIX, VECTOR
 from dmpcpp.recordings._statement import Stated
 

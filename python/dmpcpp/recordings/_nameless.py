@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from dmpcpp._text import Cells
+from dmpcpp._typing import Array
 from dmpcpp.errors import NotStated
-from dmpcpp.recordings._cells import Cells
 from dmpcpp.recordings._columns import bodies_in
 from dmpcpp.recordings._layout import layout_of
-from dmpcpp.recordings._recording import Array
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._table_lines import TableLines, shown
 
@@ -54,7 +54,8 @@ def bodyless(lines: TableLines) -> NotStated:
         several = f" or three markers on one rigid body: markers=['{held[0]}', ...]," if len(held) > 2 else ""
         return NotStated(
             ("fixed_orientation", "columns"),
-            f"the columns of {', '.join(held[:5])} hold a position and no orientation in the header {shown(header)}. "
+            f"{''.join(f'{note}. ' for note in lines.notes)}the columns of {', '.join(held[:5])} hold a position "
+            f"and no orientation in the header {shown(header)}. "
             f"State fixed_orientation=True to hold the tool's fixed,{several} or the columns: columns={{'time': ..., "
             f"'x': ..., 'y': ..., 'z': ..., 'qx': ..., ...}}.",
         )

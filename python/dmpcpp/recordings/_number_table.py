@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dmpcpp._text import Cells
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._cells import Cells
-from dmpcpp.recordings._recording import Array
 
 __all__ = ["NumberTable"]
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from dmpcpp._text import Cells
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._orientation import HELD_FIXED, REFUSE_ABOVE, from_euler, from_quaternions, held_fixed, no_turn
-from dmpcpp.recordings._cells import Cells
 from dmpcpp.recordings._orientation import REFUSE_ABOVE, no_turn
 from dmpcpp.recordings._representation import NUMBERED, QUATERNION, TURNS, oriented, turn_in
 from dmpcpp.recordings._soundness import lost_zeros, zero_note

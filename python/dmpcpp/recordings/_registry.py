@@ -14,16 +14,22 @@ from dmpcpp.recordings._formats import (
     c3d,
     deepmimic,
     euroc,
+    hdf5,
+    hot3d,
+    lerobot,
     motive,
+    mvnx,
     opensim,
     qualisys,
     ros,
     table,
     trc,
     tum,
+    umi,
     vicon,
 )
 from dmpcpp.recordings._reader import Reader
+from dmpcpp.recordings._signatures import known_other
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._table_lines import is_data, table_lines
 
@@ -34,6 +40,11 @@ __all__ = ["READERS", "prepared", "reader_of", "summaries"]
 _ORDERED = (
     arrays.READER,
     c3d.READER,
+    hdf5.READER,
+    lerobot.READER,
+    umi.READER,
+    mvnx.READER,
+    hot3d.READER,
     ros.READER,
     deepmimic.READER,
     bvh.READER,
@@ -48,6 +59,7 @@ _ORDERED = (
     tum.READER,
 )
 READERS: dict[str, Reader] = {reader.name: reader for reader in _ORDERED}
+_FOLDERS = (ros.is_bag_folder, lerobot.is_folder, umi.is_folder)
 _HEAD = 65536  # bytes that decide the format
 
 
@@ -71,10 +83,12 @@ def reader_of(path: str | PathLike[str], format: str | None = None) -> Reader:
         if format not in READERS:
             raise InvalidArgument(f"format: {format!r}, expected one of:\n{_listed()}")
         return READERS[format]
-    head = b"" if ros.is_bag_folder(path) else read_bytes(path, _HEAD)
+    head = b"" if any(each(path) for each in _FOLDERS) else read_bytes(path, _HEAD)
     for reader in _ORDERED:
         if reader.recognises(path, head):
             return reader
+    if other := known_other(path, head):
+        raise InvalidArgument(f"{path.name}: {other}")
     said = f"{path.name}: the format can not be told.{_hint(head)} State format=..., one of:\n{_listed()}"
     raise NotStated("format", said)
 

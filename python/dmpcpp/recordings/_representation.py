@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._orientation import HELD_FIXED, from_euler, from_matrices, from_quaternions, held_fixed
-from dmpcpp.recordings._recording import Array
 from dmpcpp.recordings._statement import Stated
 
 __all__ = ["ANGLES", "CELLS", "NUMBERED", "QUATERNION", "SIX", "TURNS", "VECTOR", "check_norm", "oriented", "turn_in"]

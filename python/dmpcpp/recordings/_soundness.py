@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._typing import Array
 from dmpcpp.errors import NotStated
-from dmpcpp.recordings._recording import Array
 
 __all__ = ["Jump", "check_one_body", "held_values", "jumps", "lost_zeros", "zero_note"]
 

@@ -10,18 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp._typing import Array
-from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._orientation import QuatOrder
-from dmpcpp.recordings._recording import Axis, Recording
-from dmpcpp.recordings._time_order import in_order
+from dmpcpp.recordings._rate import left_aside, times_at_rate
 from dmpcpp.recordings._recording import MIN_SAMPLES, Axis, Recording
 from dmpcpp.recordings._soundness import check_one_body, held_values, lost_zeros, zero_note
 from dmpcpp.recordings._stamps import without_bursts
 from dmpcpp.recordings._time_order import block, in_order
 from dmpcpp.recordings._world import Frame, Handedness, World
 
-__all__ = ["Stated", "times_at_rate"]
+__all__ = ["Stated"]
 
 
 @dataclass(frozen=True)
@@ -193,10 +192,8 @@ class Stated:
         """Return the times, even ones at the stated rate in their place, and a note."""
         if self.rate is None:
             return time, []
-        from dmpcpp.recordings._sampling import sampling
-
-        sampled = sampling(len(time), self, times=lambda: time, unit=frame.time_unit)
-        return sampled.time / frame.clock, sampled.notes
+        even = times_at_rate(len(time), self.rate)
+        return even / frame.clock, [left_aside(self.rate, lambda: time, frame.time_unit)]
 
     def _lost(self, time: Array, position: Array, rotation: Array) -> tuple[NDArray[np.bool_], list[str]]:
         """Return which samples are zeros or held values in place of lost ones; `missing="nan"` keeps them."""
@@ -253,23 +250,6 @@ class Stated:
 
     def _frame(self, world: World | None) -> Frame:
         return Frame(self.unit, self.time_unit, self.up_axis, self.handedness, world or World())
-
-
-def times_at_rate(count: int, rate: float | None) -> Array:
-    """Return `count` times in s at a stated sampling rate [Hz].
-
-    Raises
-    ------
-    NotStated
-        No rate stated.
-    InvalidArgument
-        One that is not a positive number.
-    """
-    if rate is None:
-        raise NotStated("rate", "rate: the file holds no times. State the sampling rate in Hz: rate=100.")
-    if isinstance(rate, bool) or not isinstance(rate, int | float | np.number) or not 0.0 < rate < 1e6:
-        raise InvalidArgument(f"rate: {rate!r}, expected a sampling rate in Hz above 0.")
-    return np.arange(count) / float(rate)
 
 
 def _lost(missing: np.ndarray) -> list[str]:

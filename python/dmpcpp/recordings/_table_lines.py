@@ -13,6 +13,7 @@ __all__ = ["TableLines", "is_data", "shown", "table_lines"]
 
 _COMMENTS = ("#", "%")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:e[+-]?\d+)?", re.IGNORECASE)
+_POSE_NETWORK = ("scorer", "individuals", "bodyparts", "coords")
 _LOOKED_AT = 20  # lines of data that show whether commas are decimal
 
 
@@ -48,13 +49,30 @@ def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
     if not lines:
         raise InvalidArgument("no lines of data.")
     delimiter = _delimiter(lines[0][1], delimiter)
+    lines, several = _with_one_header(lines, delimiter)
     first = [cell.strip() for cell in split(lines[0][1], delimiter, lines[0][0])]
     headed = not is_data(first)
     names = first if headed else _commented(text, lines[0][0], len(first), delimiter)
     units = _units(lines[1:2], delimiter) if headed else []
     data = lines[headed + bool(units) :]
     data, notes = _with_points(data, delimiter)
+    notes = [*several, *notes]
     return TableLines(split_all(data, delimiter), names, units, delimiter, bool(names) and not headed, notes)
+
+
+def _with_one_header(lines: list[tuple[int, str]], delimiter: str) -> tuple[list[tuple[int, str]], list[str]]:
+    """Return the lines of a DeepLabCut or Anipose table with one line of names in place of three, and a note.
+
+    Its lines scorer, bodyparts (and individuals) and coords name each column by part and coordinate.
+    """
+    heads = [(split(text, delimiter, line), line) for line, text in lines[:4] if text.lower().startswith(_POSE_NETWORK)]
+    if len(heads) < 3 or heads[0][0][0].strip().lower() != "scorer":
+        return lines, []
+    parts = [[cell.strip() for cell in cells] for cells, _ in heads[1:]]
+    width = min(map(len, parts))
+    names = ["frame", *("_".join(row[k] for row in parts) for k in range(1, width))]
+    note = "DeepLabCut or Anipose: three lines of names; positions without orientations, frames without times"
+    return [(heads[0][1], delimiter.join(names)), *lines[len(heads) :]], [note]
 
 
 def is_data(cells: list[str]) -> bool:

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp._typing import Array
-from dmpcpp.errors import InvalidArgument
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._recording import MIN_SAMPLES
 

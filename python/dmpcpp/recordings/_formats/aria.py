@@ -16,7 +16,7 @@ from dmpcpp._text import Cells, data_lines, read_text, split_all
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._markers import Markers
-from dmpcpp.recordings._orientation import from_quaternions
+from dmpcpp.recordings._orientation import HELD_FIXED, from_quaternions, held_fixed, no_turn
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
 from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._statement import Stated
@@ -30,7 +30,11 @@ _WORLD = World(unit="m", time_unit="us")
 _POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
 _POINT = ("tx", "ty", "tz")
 _COLUMN = re.compile(r"(?P<what>t[xyz]|q[xyzw])_(?P<of>\w+)")
-_NAMES = {"left_device_wrist": "left_wrist", "right_device_wrist": "right_wrist", "world_device": "device"}
+_WRISTS = {
+    "left_wrist_device": "left_wrist",
+    "right_wrist_device": "right_wrist",
+}  # of the first format, positions only
+_NAMES = {**_WRISTS, "left_device_wrist": "left_wrist", "right_device_wrist": "right_wrist", "world_device": "device"}
 
 
 @dataclass(frozen=True)
@@ -59,17 +63,38 @@ class _File:
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
     """Return the wrists, or "device"."""
-    return tuple(_read(path).holding(_POSE))
+    return tuple(_held(_read(path), stated))
+
+
+def _held(file: _File, stated: Stated) -> dict[str, dict[str, int]]:
+    """Return the columns of the bodies; those of the first format have no orientation.
+
+    Raises
+    ------
+    NotStated
+        They are the only ones, and a fixed orientation is not said to be enough.
+    """
+    held = file.holding(_POSE)
+    points = {name: where for name, where in file.holding(_POINT).items() if name in _WRISTS.values()}
+    if held or not points:
+        return held
+    if not stated.fixed_orientation:
+        raise no_turn(f"the first hand format holds of {' and '.join(points)}")
+    return points
 
 
 def read(path: Path, body: str | None, stated: Stated) -> Recording:
     """Return a wrist in the frame of the glasses, or the glasses in the world."""
     file = _read(path)
-    held = file.holding(_POSE)
+    held = _held(file, stated)
     body = pick_body(body, tuple(held))
-    values = file.cells.numbers([held[body][what] for what in _POSE], [f"{what} of {body!r}" for what in _POSE])
+    wanted = _POSE if "qx" in held[body] else _POINT
+    values = file.cells.numbers([held[body][what] for what in wanted], [f"{what} of {body!r}" for what in wanted])
     lost = file.unseen(body)
-    rotation, notes = from_quaternions(values[:, 3:], stated.quat_order or "xyzw", missing=lost)
+    if wanted == _POSE:
+        rotation, notes = from_quaternions(values[:, 3:], stated.quat_order or "xyzw", missing=lost)
+    else:
+        rotation, notes = held_fixed(lost), [HELD_FIXED]
     if body != "device":
         notes = ["in the frame of the glasses, which moves with the head", *notes]
     return stated.recording(
@@ -88,7 +113,7 @@ def markers(path: Path, stated: Stated) -> Markers:
     file = _read(path)
     held = {name: where for name, where in file.holding(_POINT).items() if "landmark" in name}
     if not held:
-        raise InvalidArgument("markers: the file holds no landmarks.")
+        raise InvalidArgument("markers: the file holds no landmarks; the wrists are bodies: body='left_wrist'.")
     columns = [where[what] for where in held.values() for what in _POINT]
     called = [f"{what} of {name!r}" for name in held for what in _POINT]
     points = file.cells.numbers(columns, called).reshape(len(file.cells.rows), len(held), 3)
@@ -116,7 +141,7 @@ def _read(path: Path) -> _File:
 READER = Reader(
     name="aria",
     summary="a Project Aria CSV of hands or of the glasses' trajectory",
-    takes=("quat_order", "rotation", *COMMON),
+    takes=("fixed_orientation", "quat_order", "rotation", *COMMON),
     recognises=lambda path, head: _TIME.encode() in head.split(b"\n", 1)[0],
     bodies=bodies,
     read=read,

@@ -8,19 +8,22 @@ component of the joint's OFFSET. The format says neither the unit of length nor 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from dmpcpp._text import Cells, number, read_text, split_all
+from dmpcpp._text import Cells, Row, number, read_text, split_all
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
-from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._statement import Stated
+from dmpcpp.recordings._upward import above_or_below, upward
 from dmpcpp.recordings._world import World
 
 __all__ = ["CHANNELS", "READER", "Joint", "skeleton"]
+
+_LOOKED_AT = 20  # frames in which head and feet are compared
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
             "unit", "unit: a BVH file does not say its unit of length. State unit='cm', 'm' or metres per unit."
         )
     rotation, position = _world_pose(joints, body, motion.cells)
+    up_axis, told = _up_axis(joints, motion.cells, stated)
     count = len(motion.cells.rows)
     notes = [] if count == motion.announced else [f"warning: {motion.announced} frames announced, {count} there"]
     return stated.recording(
@@ -54,19 +58,19 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=notes,
-        world=World(time_unit="s"),
+        notes=[*notes, *told],
+        world=World(time_unit="s", up_axis=up_axis),
     )
 
 
 def _read(path: Path) -> tuple[dict[str, Joint], _Motion]:
     lines = [(k, line.strip()) for k, line in enumerate(read_text(path).split("\n"), start=1)]
-    begin = next((k for k, (_, text) in enumerate(lines) if text == "MOTION"), None)
+    begin = next((k for k, (_, text) in enumerate(lines) if text.upper() == "MOTION"), None)
     if begin is None:
         raise InvalidArgument("no line MOTION: the skeleton is not followed by frames.")
     joints = skeleton(lines[:begin])
-    motion = _motion([line for line in lines[begin + 1 :] if line[1]])
     width = sum(len(joint.channels) for joint in joints.values())
+    motion = _motion([line for line in lines[begin + 1 :] if line[1]], width)
     for line, cells in motion.cells.rows:
         if len(cells) != width:
             raise InvalidArgument(
@@ -75,7 +79,7 @@ def _read(path: Path) -> tuple[dict[str, Joint], _Motion]:
     return joints, motion
 
 
-def _motion(lines: list[tuple[int, str]]) -> _Motion:
+def _motion(lines: list[tuple[int, str]], width: int) -> _Motion:
     if len(lines) < 3:
         raise InvalidArgument("expected 'Frames: N', 'Frame Time: seconds' and the frames behind MOTION.")
     announced = _fact(lines[0], "Frames:")
@@ -84,7 +88,16 @@ def _motion(lines: list[tuple[int, str]]) -> _Motion:
         raise InvalidArgument(f"line {lines[0][0]}: {announced} frames, expected a whole number.")
     if not 0.0 < step < 1e6:
         raise InvalidArgument(f"line {lines[1][0]}: a frame time of {step:g} s, expected more than 0.")
-    return _Motion(Cells(split_all(lines[2:], " ")), int(announced), step)
+    return _Motion(Cells(_unwrapped(split_all(lines[2:], " "), width, int(announced))), int(announced), step)
+
+
+def _unwrapped(rows: list[Row], width: int, announced: int) -> list[Row]:
+    """Return frames that were wrapped over several lines as one row each, where all numbers announced are there."""
+    count = sum(len(cells) for _, cells in rows)
+    if all(len(cells) == width for _, cells in rows) or count != width * announced or width == 0:
+        return rows
+    cells = [(line, cell) for line, row in rows for cell in row]
+    return [(cells[k][0], [cell for _, cell in cells[k : k + width]]) for k in range(0, count, width)]
 
 
 def _fact(row: tuple[int, str], name: str) -> float:
@@ -107,6 +120,19 @@ def _world_pose(joints: dict[str, Joint], body: str, cells: Cells) -> tuple[Arra
         position = position + np.einsum("tij,tj->ti", rotation, shift)
         rotation = rotation @ turn
     return rotation, position
+
+
+def _up_axis(joints: dict[str, Joint], cells: Cells, stated: Stated) -> tuple[Axis, list[str]]:
+    """Return the axis that points up: the one along which the head is above the feet, else y, which most files have."""
+    if stated.up_axis is not None:
+        return stated.up_axis, []
+    some = replace(cells, rows=cells.rows[:: max(1, len(cells.rows) // _LOOKED_AT)])
+    wanted = [name for name in joints if above_or_below(name)]
+    places = np.array([_world_pose(joints, name, some)[1] for name in wanted])
+    found = upward(wanted, np.swapaxes(places, 0, 1)) if wanted else None
+    if found is not None:
+        return found, [f"up axis {found}: the head is above the feet along it"]
+    return "y", ["taken: up_axis: y, as in most BVH files; no joints of head and feet show it"]
 
 
 def _local_pose(joint: Joint, cells: Cells) -> tuple[Array, Array]:
@@ -137,7 +163,7 @@ READER = Reader(
     name="bvh",
     summary="a BVH skeleton with its motion; unit to be stated",
     takes=COMMON,
-    recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"HIERARCHY"),
+    recognises=lambda path, head: head.lstrip(b"\xef\xbb\xbf \t\r\n")[:9].upper() == b"HIERARCHY",
     bodies=bodies,
     read=read,
 )
@@ -194,9 +220,10 @@ class _Skeleton:
         }
         for line, word in self.words:
             self.line = line
-            if word not in take:
+            known = next((name for name in take if name.lower() == word.lower()), None)
+            if known is None:
                 raise self._error(f"{word[:20]!r}, expected JOINT, End Site, OFFSET, CHANNELS or }}")
-            take[word]()
+            take[known]()
         if self.open or not self.joints:
             raise self._error("the skeleton ends in the middle, or holds no joint")
 

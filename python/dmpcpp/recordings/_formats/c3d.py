@@ -1,4 +1,4 @@
-"""C3D: markers of a motion capture system, with rate and unit.
+"""C3D: markers of a motion capture system, or poses of segments, with rate and unit.
 
 Source: The C3D File Format User Guide (Motion Lab Systems, 2008). Read here rather than by a library, because those
 that exist crash, hang or stop at an assertion on damaged or unusual files; every size is held against the file's before
@@ -7,7 +7,7 @@ anything is taken for it. Analog channels are skipped. A residual below 0 marks 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +15,10 @@ from dmpcpp._text import read_bytes
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._formats.c3d_parameters import ByteOrder, Parameters, byte_order, read_parameters
+from dmpcpp.recordings._formats.c3d_rotation import read_segment, segments
 from dmpcpp.recordings._markers import Markers, distinct
-from dmpcpp.recordings._reader import COMMON, marker_reader
-from dmpcpp.recordings._recording import Axis
+from dmpcpp.recordings._reader import COMMON, Reader, no_orientation
+from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._sampling import sampling
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import LENGTH_UNITS, World
@@ -26,6 +27,7 @@ __all__ = ["READER"]
 
 _BLOCK = 512  # bytes
 _MAGIC = 0x50
+_OUTPUTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS")  # parameters that list points which are no markers
 
 
 @dataclass(frozen=True)
@@ -38,26 +40,53 @@ class _Layout:
     scale: float  # below 0: stored as floating point numbers, already scaled
     start: int  # bytes
     rate: float  # Hz
+    notes: tuple[str, ...] = ()
+
+    @property
+    def end(self) -> int:
+        """Return the first byte behind the data."""
+        return self.start + self.frames * (4 * self.points + self.analog) * (4 if self.scale < 0.0 else 2)
 
 
-def markers(path: Path, stated: Stated) -> Markers:
-    """Return the markers."""
+def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
+    """Return the segments whose rotation matrices the file holds; none of a file of markers."""
+    return segments(*_opened(path))
+
+
+def read(path: Path, body: str | None, stated: Stated) -> Recording:
+    """Return the pose of one segment of a ROTATION group."""
+    content, order, parameters = _opened(path)
+    if not segments(content, order, parameters):
+        raise no_orientation(markers(path, stated).names)
+    world = World(
+        unit=None if stated.unit is not None else _unit(parameters), time_unit="s", up_axis=_up_axis(parameters)
+    )
+    return read_segment(content, order, parameters, body, path.name, stated, world)
+
+
+def _opened(path: Path) -> tuple[bytes, ByteOrder, Parameters]:
     content = read_bytes(path)
     if len(content) < 2 * _BLOCK or content[1] != _MAGIC:
         raise InvalidArgument("not a C3D file: the header is missing or does not begin as one.")
     order = byte_order(content)
-    parameters = read_parameters(content, order)
+    return content, order, read_parameters(content, order)
+
+
+def markers(path: Path, stated: Stated) -> Markers:
+    """Return the markers; angles, forces and other model outputs among the points are left out."""
+    content, order, parameters = _opened(path)
     layout = _layout(content, order, parameters)
+    names, kept, notes = _without_outputs(parameters, _names(parameters, layout.points))
     known = 0.0 < layout.rate < 1e6
     if not known and stated.rate is None:
         raise NotStated("rate", f"rate: {layout.rate!r} Hz, expected more than 0. State rate=...")
     sampled = sampling(layout.frames, stated, rate=layout.rate if known else None)
     return sampled.stated.marker_set(
         time=sampled.time,
-        position=_positions(content, order, layout),
-        names=_names(parameters, layout.points),
+        position=_positions(content, order, layout)[:, kept],
+        names=names,
         source=path.name,
-        notes=sampled.notes,
+        notes=[*sampled.notes, *parameters.notes, *layout.notes, *notes],
         world=World(
             unit=None if stated.unit is not None else _unit(parameters), time_unit="s", up_axis=_up_axis(parameters)
         ),
@@ -71,23 +100,51 @@ def _layout(content: bytes, order: ByteOrder, parameters: Parameters) -> _Layout
     frames = parameters.integer("POINT", "FRAMES", last - first + 1)
     if frames in (0xFFFF, last - first + 1) and last >= first:
         frames = last - first + 1
-    start = (parameters.integer("POINT", "DATA_START", int(words[8])) - 1) * _BLOCK
+    if points < 1:
+        raise InvalidArgument(
+            f"the file holds no points, only {parameters.integer('ANALOG', 'USED', 0)} analog channels."
+        )
+    block = parameters.integer("POINT", "DATA_START", int(words[8])) or int(words[8])
     layout = _Layout(
         points=points,
         analog=int(words[2]),
         frames=_frames(parameters, frames),
         scale=float(order.floats(content[12:16])[0]),
-        start=start,
+        start=(block - 1) * _BLOCK,
         rate=parameters.number("POINT", "RATE", float(order.floats(content[20:24])[0])),
     )
-    size = 4 if layout.scale < 0.0 else 2
-    needed = start + layout.frames * (4 * points + layout.analog) * size
-    if min(points, layout.frames) < 1 or start < _BLOCK or needed > len(content) or not np.isfinite(layout.scale):
+    layout = _with_analog(layout, parameters, len(content))
+    if layout.frames < 1 or layout.start < _BLOCK or layout.end > len(content) or not np.isfinite(layout.scale):
         raise InvalidArgument(
-            f"{layout.frames} frames of {points} points from byte {start} on need {needed} bytes, the file has "
+            f"{layout.frames} frames of {points} points from byte {layout.start} on need {layout.end} bytes, the "
+            f"file has "
             f"{len(content)}. It is cut off or damaged."
         )
     return layout
+
+
+def _with_analog(layout: _Layout, parameters: Parameters, size: int) -> _Layout:
+    """Return the layout with the count of analog values that fits the file's size, where header and parameters differ.
+
+    Raises
+    ------
+    InvalidArgument
+        They differ and both or none fit.
+    """
+    used, rate = parameters.integer("ANALOG", "USED", -1), parameters.number("ANALOG", "RATE", 0.0)
+    by_rate = used * rate / layout.rate if used >= 0 and layout.rate > 0.0 else -1.0
+    if not 0.0 <= by_rate < 1e6 or round(by_rate) == layout.analog or (rate == 0.0 and used > 0):
+        return layout
+    other = replace(layout, analog=round(by_rate))
+    fitting = [each for each in (layout, other) if each.end <= size < each.end + _BLOCK]
+    said = f"analog values a frame: {layout.analog} by the header, {other.analog} by ANALOG:USED and its rate"
+    if len(fitting) == 1:
+        return replace(fitting[0], notes=(f"{said}; {fitting[0].analog} fits the file's size",))
+    if layout.end <= size < other.end:
+        return layout  # what follows the data is no reason for doubt
+    raise InvalidArgument(
+        f"{said}; {'both fit' if fitting else 'neither fits'} its size of {size} bytes. Export it again."
+    )
 
 
 def _frames(parameters: Parameters, frames: int) -> int:
@@ -122,6 +179,17 @@ def _names(parameters: Parameters, count: int) -> tuple[str, ...]:
     return distinct(labels[:count])
 
 
+def _without_outputs(parameters: Parameters, names: tuple[str, ...]) -> tuple[tuple[str, ...], list[int], list[str]]:
+    """Return the names of the markers, their numbers, and a note on the points that are model outputs."""
+    outputs = {name for kind in _OUTPUTS for name in parameters.texts("POINT", kind) if name}
+    kept = [k for k, name in enumerate(names) if name not in outputs]
+    if len(kept) == len(names) or not kept:
+        return names, list(range(len(names))), []
+    left_out = [name for name in names if name in outputs]
+    shown = ", ".join(left_out[:8]) + (", ..." if len(left_out) > 8 else "")
+    return tuple(names[k] for k in kept), kept, [f"{len(left_out)} model outputs among the points left out: {shown}"]
+
+
 def _unit(parameters: Parameters) -> str:
     units = parameters.texts("POINT", "UNITS")
     unit = units[0].strip().lower() if units else ""
@@ -139,10 +207,12 @@ def _up_axis(parameters: Parameters) -> Axis | None:
     return axes.get(screen[0].strip().upper()) if screen else None
 
 
-READER = marker_reader(
+READER = Reader(
     name="c3d",
-    summary="a C3D file of markers",
-    recognises=lambda path, head: path.suffix.lower() == ".c3d",
-    markers=markers,
+    summary="a C3D file of markers, or of segments' rotations",
     takes=("fixed_orientation", *COMMON),
+    recognises=lambda path, head: path.suffix.lower() == ".c3d",
+    bodies=bodies,
+    read=read,
+    markers=markers,
 )

@@ -52,9 +52,9 @@ class _Parameter:
 class Parameters:
     """The parameters of a file by group and name, upper case."""
 
-    def __init__(self, order: ByteOrder, found: dict[tuple[str, str], _Parameter]) -> None:
-        """Take the parameters as they stand in the file."""
-        self._order, self._found = order, found
+    def __init__(self, order: ByteOrder, found: dict[tuple[str, str], _Parameter], notes: tuple[str, ...] = ()) -> None:
+        """Take the parameters as they stand in the file, and what there is to tell of them."""
+        self._order, self._found, self.notes = order, found, notes
 
     def has(self, group: str, name: str) -> bool:
         """Return whether the file holds it."""
@@ -118,6 +118,7 @@ def read_parameters(content: bytes, order: ByteOrder) -> Parameters:
     section = content[start : start + max(content[start + 2], 1) * _BLOCK]
     groups: dict[int, str] = {}
     entries: list[tuple[int, str, _Parameter]] = []
+    skipped: list[str] = []
     at = 4
     while at + 2 <= len(section) and section[at] != 0:
         length, identity = abs(_signed(section[at])), _signed(section[at + 1])
@@ -125,14 +126,30 @@ def read_parameters(content: bytes, order: ByteOrder) -> Parameters:
         body = at + 2 + length
         step = order.integers(section[body : body + 2] if body + 2 <= len(section) else b"\0\0")[0]
         if identity > 0:
-            entries.append((identity, name, _parameter(section, body + 2)))
+            try:
+                entries.append((identity, name, _parameter(section, body + 2)))
+            except InvalidArgument:
+                if not _is_entry(section, body + int(step)):
+                    raise
+                skipped.append(name)
         else:
             groups[-identity] = name
         if step == 0:
             break
         at = body + int(step)
     found = {(groups.get(identity, ""), name): parameter for identity, name, parameter in entries}
-    return Parameters(order, found)
+    notes = (f"parameters of unknown type left out: {', '.join(skipped[:8])}",) if skipped else ()
+    return Parameters(order, found, notes)
+
+
+def _is_entry(section: bytes, at: int) -> bool:
+    """Return whether a parameter or group with a readable name begins there, or the section ends."""
+    if at + 2 > len(section):
+        return False
+    if section[at] == 0:
+        return True
+    name = section[at + 2 : at + 2 + abs(_signed(section[at]))]
+    return len(name) == abs(_signed(section[at])) and all(32 < byte < 127 for byte in name)
 
 
 def _parameter(section: bytes, at: int) -> _Parameter:

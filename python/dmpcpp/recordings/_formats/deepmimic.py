@@ -155,7 +155,7 @@ READER = Reader(
     name="deepmimic",
     summary='a DeepMimic humanoid clip: JSON with "Frames" of 44 numbers',
     takes=("rate", "time_unit", "missing"),
-    recognises=lambda path, head: head.lstrip().startswith(b"{"),
+    recognises=lambda path, head: head.lstrip().startswith(b"{") and b'"Frames"' in head,
     bodies=bodies,
     read=read,
 )

@@ -7,6 +7,7 @@ rows of several bodies or takes apart, see `_keys`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -15,11 +16,6 @@ import numpy as np
 from dmpcpp._text import Cells, read_text
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
-from dmpcpp.recordings._columns import WHOLE, bodies_in, column, times_in, unit_of
-from dmpcpp.recordings._pose_columns import ANGLES, POSITION, pose, stated_columns
-from dmpcpp.recordings._reader import COMMON, Reader, pick_body
-from dmpcpp.recordings._recording import Recording
-from dmpcpp.recordings._cells import Cells
 from dmpcpp.recordings._clock import clock_texts
 from dmpcpp.recordings._columns import WHOLE, bodies_in, column, repeated, times_in, unit_of
 from dmpcpp.recordings._keys import Key, keys_in, rows_where
@@ -27,6 +23,8 @@ from dmpcpp.recordings._layout import layout_of
 from dmpcpp.recordings._markers import Markers, distinct
 from dmpcpp.recordings._nameless import bodyless, from_shape, nameless
 from dmpcpp.recordings._pose_columns import POSITION, pose, stated_columns
+from dmpcpp.recordings._reader import COMMON, Reader, pick_body
+from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._representation import ANGLES, VECTOR
 from dmpcpp.recordings._sampling import Sampling, sampling
 from dmpcpp.recordings._statement import Stated
@@ -37,6 +35,9 @@ __all__ = ["READER", "bodies", "read"]
 
 _SUFFIXES = (".csv", ".tsv")
 _TUM = ("x", "y", "z", "qx", "qy", "qz", "qw")  # columns behind the time
+_HEADSET = re.compile(
+    r"(?:.*[_. ])?(?:(?:Pos|Rot|Orient)[XYZW]|(?:pos|rot)_[xyzw])"
+)  # names in logs of Unity, WebXR and OpenXR
 _MOST_BODIES = 60  # values of a key that are listed as bodies
 
 
@@ -94,7 +95,14 @@ class _Table:
         length = [self.bodies[body][name] for name in POSITION]
         known = None if self.time is None or stated.time_unit is not None or stated.rate else self.clock()
         unit = self.unit("unit", length) or ("m" if "TCP_pose" in body else None)
-        return World(unit=None if stated.unit is not None else unit, time_unit=known, handedness=None)
+        return World(
+            unit=None if stated.unit is not None else unit, time_unit=known, up_axis=self.up_axis(body), handedness=None
+        )
+
+    def up_axis(self, body: str) -> Axis | None:
+        """Return the axis that points up by the dialect of the names: Unity's and other headset logs' is y."""
+        names = [self.header[place] for place in self.bodies[body].values() if place < len(self.header)]
+        return "y" if len(names) > len(POSITION) and all(map(_HEADSET.fullmatch, names)) else None
 
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
@@ -122,7 +130,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=[*table.notes, *sampled.notes, *notes],
+        notes=[*table.notes, *sampled.notes, *notes, *_told_up(table, body, stated)],
         world=table.world(body, stated),
         channels={name: _channel(table, place) for name, place in table.channels.items()},
     )
@@ -148,6 +156,12 @@ def markers(path: Path, stated: Stated) -> Markers:
         notes=[*table.notes, *sampled.notes],
         world=table.world(next(iter(table.bodies)), stated),
     )
+
+
+def _told_up(table: _Table, body: str, stated: Stated) -> list[str]:
+    if stated.up_axis is not None or table.up_axis(body) is None:
+        return []
+    return ["taken: up_axis: y, as in logs of Unity, WebXR and OpenXR"]
 
 
 def _channel(table: _Table, place: int) -> Array:

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from dmpcpp._text import Cells, data_lines, read_text, split_all
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._cells import Cells, split_all
 from dmpcpp.recordings._orientation import QuatOrder
 from dmpcpp.recordings._pose_columns import pose
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body

@@ -1,77 +1,184 @@
-"""Vicon Nexus CSV: the section "Trajectories", markers with their unit and rate.
+"""Vicon CSV: the markers of the section "Trajectories", the poses of "Segments" and of tracked "Objects".
 
-Source: Vicon Nexus documentation, "Export data to CSV", and its exports. A section is its name, the rate in Hz, the
-names of the markers, the columns (Frame, Sub Frame, X, Y, Z, ..), their units and the data, up to a blank line. Empty
-cells are markers that were not seen.
+Source: Vicon Nexus and Tracker documentation, "Export data to CSV", and their exports. A section is its name, the rate
+in Hz, the names, the columns (Frame, Sub Frame, then X, Y, Z of a marker or RX, RY, RZ, TX, TY, TZ of a body), their
+units and the data, up to a blank line. Empty cells were not seen. RX, RY, RZ are a rotation vector unless the export
+was set otherwise, which the file does not say.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from itertools import takewhile
 from pathlib import Path
 
+import numpy as np
 from dmpcpp._text import Cells, Row, number, read_text, split_all
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._markers import Markers, distinct
-from dmpcpp.recordings._reader import marker_reader
+from dmpcpp.recordings._reader import COMMON, Reader, no_orientation, pick_body
+from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._representation import ANGLES, QUATERNION, oriented
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import LENGTH_UNITS, World
 
 __all__ = ["READER"]
 
-_SECTION = "Trajectories"
-_SECTIONS = (_SECTION, "Devices", "Joints", "Segments", "Model Outputs", "Events", "Objects", "Global")
+_MARKERS = "Trajectories"
+_BODIES = ("Segments", "Objects", "Global Angle (Quaternion)")
+_SECTIONS = (_MARKERS, "Devices", "Joints", "Segments", "Model Outputs", "Events", "Objects", "Global")
+_SHIFT = ("TX", "TY", "TZ")
+_TURNS = {("RX", "RY", "RZ"): ANGLES, ("RX", "RY", "RZ", "RW"): QUATERNION}
+
+
+@dataclass(frozen=True)
+class _Section:
+    """One section of a file; columns counted from 0."""
+
+    rate: float
+    names: list[str]
+    columns: list[str]
+    units: list[str]
+    cells: Cells
+
+    def times(self) -> Array:
+        """Return the times [s] by the frame numbers; subframes lie between them."""
+        frames = self.cells.numbers([0], ["Frame"])[:, 0]
+        return (frames - frames[0]) / self.rate
+
+    def named(self, first: int) -> str:
+        """Return the name above a column."""
+        return self.names[first] if first < len(self.names) else ""
+
+    def unit(self, columns: list[int]) -> str:
+        found = {self.units[k].strip() if k < len(self.units) else "" for k in columns}
+        return found.pop() if len(found) == 1 else ""
+
+    def length_unit(self, columns: list[int]) -> str:
+        unit = self.unit(columns)
+        if unit in LENGTH_UNITS:
+            return unit
+        raise NotStated("unit", f"unit: the columns say {unit!r}. State unit='mm' or another.")
+
+    def bodies(self) -> dict[str, dict[str, int]]:
+        """Return the bodies with the columns of what they hold."""
+        starts = [k for k, cell in enumerate(self.columns) if cell == "RX"]
+        ends = [*starts[1:], len(self.columns)]
+        named = dict(zip(distinct([self.named(k) for k in starts]), zip(starts, ends, strict=True), strict=True))
+        held = {name: {self.columns[k]: k for k in reversed(range(*span))} for name, span in named.items()}
+        return {
+            name: where for name, where in held.items() if all(axis in where for axis in ("RX", "RY", "RZ", *_SHIFT))
+        }
+
+
+def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
+    """Return the segments and objects."""
+    found = _bodies(_sections(path))
+    if not found:
+        markers(path, stated)
+    return tuple(found)
+
+
+def read(path: Path, body: str | None, stated: Stated) -> Recording:
+    """Return one segment or object; a name may leave out the subject in front of it."""
+    sections = _sections(path)
+    held = _bodies(sections)
+    if not held:
+        raise no_orientation(markers(path, stated).names)
+    body = pick_body(_whole(body, tuple(held)), tuple(held))
+    section, where = held[body]
+    turn = tuple(name for name in ("RX", "RY", "RZ", "RW") if name in where)
+    columns = [where[name] for name in (*_SHIFT, *turn)]
+    values = Cells(section.cells.rows, blank=True).numbers(
+        columns, [f"{name} of {body!r}" for name in (*_SHIFT, *turn)]
+    )
+    lost = np.isnan(values).any(axis=1)
+    if stated.angle_unit is None:
+        stated = replace(stated, angle_unit=_angle_unit(section.unit([where[name] for name in turn])))
+    rotation, notes = oriented(values[:, 3:], _TURNS[turn], stated, lost)
+    return stated.recording(
+        time=section.times(),
+        position=np.where(lost[:, None], np.nan, values[:, :3]),
+        rotation=rotation,
+        body=body,
+        source=path.name,
+        notes=notes,
+        world=World(unit=None if stated.unit is not None else section.length_unit(columns[:3]), time_unit="s"),
+    )
 
 
 def markers(path: Path, stated: Stated) -> Markers:
     """Return the markers of the section "Trajectories"."""
-    rate, names_row, columns, units, data = _section(path)
-    starts = [k for k, cell in enumerate(columns) if cell.strip().upper() == "X"]
-    names = distinct([names_row[k] if k < len(names_row) else "" for k in starts])
+    sections = _sections(path)
+    section = sections.get(_MARKERS)
+    if section is None:
+        held = ", ".join(sections) or "none that is known"
+        raise InvalidArgument(f"no section {_MARKERS!r}, the markers. Sections: {held}. Export the trajectories.")
+    starts = [k for k, cell in enumerate(section.columns) if cell.upper() == "X"]
+    names = distinct([section.named(k) for k in starts])
     if not names:
-        raise InvalidArgument(f"the section {_SECTION} has no columns X, Y, Z.")
-    cells = Cells(data, blank=True)
-    frames = cells.numbers([0], ["Frame"])[:, 0]
+        raise InvalidArgument(f"the section {_MARKERS} has no columns X, Y, Z.")
     return stated.marker_set(
-        time=(frames - frames[0]) / rate,
-        position=cells.points(starts, names),
+        time=section.times(),
+        position=Cells(section.cells.rows, blank=True).points(starts, names),
         names=names,
         source=path.name,
         notes=[],
-        world=World(unit=None if stated.unit is not None else _unit(units, starts), time_unit="s"),
+        world=World(unit=None if stated.unit is not None else section.length_unit(starts), time_unit="s"),
     )
 
 
-def _section(path: Path) -> tuple[float, list[str], list[str], list[str], list[Row]]:
-    """Return rate, names, columns, units and data of the section of markers."""
+def _bodies(sections: dict[str, _Section]) -> dict[str, tuple[_Section, dict[str, int]]]:
+    """Return the bodies of all sections that hold some, the first of a name counts."""
+    found: dict[str, tuple[_Section, dict[str, int]]] = {}
+    for section in (section for name, section in sections.items() if name in _BODIES):
+        for body, where in section.bodies().items():
+            found.setdefault(body, (section, where))
+    return found
+
+
+def _whole(body: str | None, held: tuple[str, ...]) -> str | None:
+    """Return the only name that a name without its subject can mean; else the name as it is."""
+    ending = [name for name in held if name.endswith(f":{body}")]
+    return ending[0] if body not in held and len(ending) == 1 else body
+
+
+def _angle_unit(unit: str) -> str | None:
+    return unit if unit in ("deg", "rad") else None
+
+
+def _sections(path: Path) -> dict[str, _Section]:
+    """Return the sections of a file that hold frames, by name."""
     lines = [(k, line.strip("\r")) for k, line in enumerate(read_text(path).split("\n"), start=1)]
     delimiter = "\t" if any("\t" in text for _, text in lines[:8]) else ","
     rows = split_all(lines, delimiter)
-    begin = _begin([cells[0].strip() for _, cells in rows])
+    begins = [
+        k for k, (_, cells) in enumerate(rows) if cells[0].strip() in _SECTIONS and not "".join(cells[1:]).strip()
+    ]
+    wanted = [k for k in begins if rows[k][1][0].strip() in (_MARKERS, *_BODIES)]
+    if not wanted:
+        held = ", ".join(rows[k][1][0].strip() for k in begins) or "none that is known"
+        raise InvalidArgument(f"no section {_MARKERS!r}, the markers. Sections: {held}. Export the trajectories.")
+    return {rows[k][1][0].strip(): _section(rows, k) for k in reversed(wanted)}
+
+
+def _section(rows: list[Row], begin: int) -> _Section:
     first = begin + 5
     if len(rows) <= first:
-        raise InvalidArgument(f"line {len(rows)}: the file ends in the head of the section {_SECTION}.")
+        raise InvalidArgument(
+            f"line {len(rows)}: the file ends in the head of the section {rows[begin][1][0].strip()}."
+        )
     (line, (rate, *_)), (_, names), (_, columns), (_, units) = rows[begin + 1 : first]
     data = list(takewhile(lambda row: "".join(row[1]).strip(), rows[first:]))
     frequency = number(rate, line, "rate")
     if not 0.0 < frequency < 1e6 or not data:
         raise InvalidArgument(f"line {line}: {frequency:g} Hz and {len(data)} frames, expected more than 0 of both.")
-    return frequency, names, columns, units, data
+    return _Section(frequency, _stripped(names), _stripped(columns), units, Cells(data))
 
 
-def _begin(heads: list[str]) -> int:
-    """Return the row at which the section of markers begins."""
-    if _SECTION not in heads:
-        held = ", ".join(head for head in heads if head in _SECTIONS) or "none that is known"
-        raise InvalidArgument(f"no section {_SECTION!r}, the markers. Sections: {held}. Export the trajectories.")
-    return heads.index(_SECTION)
-
-
-def _unit(units: list[str], starts: list[int]) -> str:
-    found = {units[k].strip() if k < len(units) else "" for k in starts}
-    if len(found) == 1 and found <= set(LENGTH_UNITS):
-        return found.pop()
-    raise NotStated("unit", f"unit: the columns say {', '.join(map(repr, sorted(found)))}. State unit='mm' or another.")
+def _stripped(cells: list[str]) -> list[str]:
+    return [cell.strip() for cell in cells]
 
 
 def _recognises(path: Path, head: bytes) -> bool:
@@ -79,9 +186,12 @@ def _recognises(path: Path, head: bytes) -> bool:
     return first.decode("latin-1") in _SECTIONS
 
 
-READER = marker_reader(
+READER = Reader(
     name="vicon",
-    summary="a Vicon Nexus CSV of trajectories (markers)",
+    summary="a Vicon CSV of trajectories (markers), segments or objects",
+    takes=("fixed_orientation", "rotation", "euler_order", "angle_unit", *COMMON),
     recognises=_recognises,
+    bodies=bodies,
+    read=read,
     markers=markers,
 )

@@ -1,0 +1,52 @@
+"""What data sets of many episodes share: choosing an episode, the extra that reads them, limits on sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from types import ModuleType
+
+from dmpcpp.errors import InvalidArgument, MissingDependency, NotStated
+
+__all__ = ["LARGEST", "chosen_episode", "needed"]
+
+LARGEST = 256 * 1024 * 1024
+"""Bytes of one array; no motion of a hand needs more, and a hostile file may claim more than the machine has."""
+
+
+def needed(module: str, what: str) -> ModuleType:
+    """Return a module of the extra `datasets`.
+
+    Raises
+    ------
+    MissingDependency
+        It is not installed; the message names the extra.
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        package = module.split(".")[0]
+        raise MissingDependency(f'{what} are read by {package}. Install it: pip install "dmpcpp[datasets]".') from None
+
+
+def chosen_episode(episode: int | None, available: Sequence[int], what: str) -> int:
+    """Return the episode that was specified, or the only one.
+
+    Raises
+    ------
+    NotStated
+        None was specified and there are several.
+    InvalidArgument
+        It is not there.
+    """
+    count = len(available)
+    if episode is None and count == 1:
+        return available[0]
+    span = f"{available[0]} to {available[-1]}" if count else "none"
+    if episode is None:
+        raise NotStated(
+            "episode", f"episode: {what} of {count} episodes, {span}. Specify one: episode={available[-1]}."
+        )
+    if isinstance(episode, bool) or episode not in available:
+        raise InvalidArgument(f"episode: {episode!r}, but {what} holds {count} episodes, {span}.")
+    return episode
