@@ -553,7 +553,7 @@ def test_hand_guided_pouring_reads_by_index_in_centimetres(recorded):
     for index in (None, 9, -1, "a"):
         with pytest.raises(InvalidArgument, match=r"expected 0 to 8: the array .* holds 9 demonstrations"):
             recordings.load(path, index=index, **stated)
-    with pytest.raises(InvalidArgument, match="State unit='mm', 'cm' or 'in'"):
+    with pytest.raises(InvalidArgument, match="State unit='mm' or unit='cm'"):
         recordings.load(path, index=0, rate=100.0, quat_order="wxyz")
 
 

@@ -116,7 +116,10 @@ def _with_cells(where: dict[str, int]) -> dict[str, int]:
     if not cells:
         return where
     first = 0 if any("0" in indices for indices in cells) else 1
-    named = {f"m{int(i) - first}{int(j) - first}": place for (i, j), place in cells.items()}
+    named = {
+        f"m{int(i) - first}{int(j) - first}": place
+        for (i, j), place in ((tuple(key), where) for key, where in cells.items())
+    }
     last = {axis: named[f"m{k}3"] for k, axis in enumerate("xyz") if f"m{k}3" in named}
     plain = {what: place for what, place in where.items() if not what.startswith("cell")}
     return {**last, **plain, **{name: place for name, place in named.items() if name in CELLS or name[1] == "3"}}

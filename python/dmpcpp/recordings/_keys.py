@@ -73,7 +73,7 @@ def keys_in(header: Sequence[str], rows: Sequence[Row], used: Sequence[int], tim
         unique = tuple(dict.fromkeys(values))
         if len(unique) < 2 or (not known and not _may_be_key(unique, len(rows))):
             continue
-        if known or _comes_round(values, len(unique)) or (disordered and _orders(values, clock)):
+        if known or _comes_round(values, len(unique)) or (clock is not None and disordered and _orders(values, clock)):
             found.append(Key(name, column, unique))
     return found
 

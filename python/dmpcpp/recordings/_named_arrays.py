@@ -58,7 +58,7 @@ def sources_in(shapes: Mapping[str, Shape]) -> Sources:
         match = _TURN.fullmatch(name)
         if match and (shape[1:] in ((3,), (4,), (6,), (9,), (3, 3))):
             turns.setdefault(match["body"].lower(), name)
-    pairs = {}
+    pairs: Sources = {}
     for name, shape in shapes.items():
         match = _POSITION.fullmatch(name)
         turn = turns.get(match["body"].lower()) if match and shape[1:] == (3,) else None

@@ -33,7 +33,7 @@ def lost_zeros(position: Array, known: Mask | None = None) -> Mask:
     the step to them is like the other steps. A point that is 0 throughout is lost throughout only for markers, see
     `zero_note`.
     """
-    known = ~np.isnan(position).any(axis=1) if known is None else known
+    known = np.asarray(~np.isnan(position).any(axis=1)) if known is None else known
     zero = known & (position == 0.0).all(axis=1)
     if not zero.any() or zero[known].all():
         return np.zeros(len(position), dtype=bool)

@@ -154,7 +154,8 @@ class Frame:
     def _too_far(self, axis: int, extent: float) -> InvalidArgument:
         """Return the error for a range that no hand covers, with the units that would make it one."""
         said = f"position: {'xyz'[axis]} ranges over {extent:.4g} m"
-        fitting = [name for name, length in LENGTH_UNITS.items() if 0.05 <= extent / self.length * length <= 5.0]
+        raw = extent / self.length
+        fitting = [name for name in ("mm", "cm", "in", "m") if 0.05 <= raw * LENGTH_UNITS[name] <= _LARGEST_EXTENT]
         others = " or ".join(f"unit={name!r}" for name in fitting if name != self.unit)
         if self.world.unit is not None:
             other = f" Specify {others} if they are that" if others else ""

@@ -220,7 +220,8 @@ def _opened(path: Path, stated: Stated) -> Iterator[_File]:
 def _arrays(h5py: Any, file: Any) -> dict[str, tuple[int, ...]]:
     """Return the arrays of numbers in a file: hard links only, so that nothing outside of it is opened."""
     found: dict[str, tuple[int, ...]] = {}
-    waiting, seen = [("", file)], set()
+    waiting: list[tuple[str, Any]] = [("", file)]
+    seen: set[Any] = set()
     while waiting and len(found) < _MOST_ARRAYS and len(seen) < _MOST_ARRAYS:
         prefix, group = waiting.pop()
         for name in sorted(group, reverse=True):

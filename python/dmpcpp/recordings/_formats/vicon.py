@@ -113,8 +113,7 @@ def markers(path: Path, stated: Stated) -> Markers:
     sections = _sections(path)
     section = sections.get(_MARKERS)
     if section is None:
-        held = ", ".join(sections) or "none that is known"
-        raise InvalidArgument(f"no section {_MARKERS!r}, the markers. Sections: {held}. Export the trajectories.")
+        raise _no_markers(_heads(path))
     starts = [k for k, cell in enumerate(section.columns) if cell.upper() == "X"]
     names = distinct([section.named(k) for k in starts])
     if not names:
@@ -150,17 +149,31 @@ def _angle_unit(unit: str) -> str | None:
 
 def _sections(path: Path) -> dict[str, _Section]:
     """Return the sections of a file that hold frames, by name."""
-    lines = [(k, line.strip("\r")) for k, line in enumerate(read_text(path).split("\n"), start=1)]
-    delimiter = "\t" if any("\t" in text for _, text in lines[:8]) else ","
-    rows = split_all(lines, delimiter)
-    begins = [
-        k for k, (_, cells) in enumerate(rows) if cells[0].strip() in _SECTIONS and not "".join(cells[1:]).strip()
-    ]
-    wanted = [k for k in begins if rows[k][1][0].strip() in (_MARKERS, *_BODIES)]
+    rows = _rows(path)
+    wanted = {name: k for name, k in reversed(_begins(rows)) if name in (_MARKERS, *_BODIES)}  # the first of a name
     if not wanted:
-        held = ", ".join(rows[k][1][0].strip() for k in begins) or "none that is known"
-        raise InvalidArgument(f"no section {_MARKERS!r}, the markers. Sections: {held}. Export the trajectories.")
-    return {rows[k][1][0].strip(): _section(rows, k) for k in reversed(wanted)}
+        raise _no_markers(_heads(path))
+    return {name: _section(rows, k) for name, k in wanted.items()}
+
+
+def _rows(path: Path) -> list[Row]:
+    lines = [(k, line.strip("\r")) for k, line in enumerate(read_text(path).split("\n"), start=1)]
+    return split_all(lines, "\t" if any("\t" in text for _, text in lines[:8]) else ",")
+
+
+def _begins(rows: list[Row]) -> list[tuple[str, int]]:
+    """Return the sections in the order of the file, with the rows at which they begin."""
+    heads = [(cells[0].strip(), k) for k, (_, cells) in enumerate(rows) if not "".join(cells[1:]).strip()]
+    return [(name, k) for name, k in heads if name in _SECTIONS]
+
+
+def _heads(path: Path) -> list[str]:
+    return [name for name, _ in _begins(_rows(path))]
+
+
+def _no_markers(heads: list[str]) -> InvalidArgument:
+    held = ", ".join(heads) or "none that is known"
+    return InvalidArgument(f"no section {_MARKERS!r}, the markers. Sections: {held}. Export the trajectories.")
 
 
 def _section(rows: list[Row], begin: int) -> _Section:
