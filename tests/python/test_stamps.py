@@ -91,8 +91,7 @@ def sparse():
 def test_no_step_makes_up_more_than_ten_samples_for_each_that_is_there():
     with pytest.raises(InvalidArgument, match="samples would be made up from 9, expected at most 10 for each"):
         motion.fill(sparse(), longest=1e6)
-    with pytest.raises(InvalidArgument, match="made up from 8"):
-        motion.resample(motion.crop(sparse(), 0.0, 0.7), 1000.0)
+    assert len(motion.resample(motion.crop(sparse(), 0.0, 0.7), 1000.0)) == 701  # as asked for
 
 
 def test_inspect_is_never_ready_where_samples_would_be_made_up_without_bound(tmp_path):

@@ -61,7 +61,7 @@ def resample(recording: Recording, rate: float) -> Recording:
             f"rate: {rate:g} Hz gives {count} samples over {recording.duration:g} s, expected at least "
             f"{MIN_SAMPLES} and at most 1e7."
         )
-    check_made_up(count - len(recording), len(recording))
+    check_made_up(count - len(recording), MADE_UP_IN_ALL)  # of a rate that was asked for: the bound on all
     time = np.minimum(np.arange(count) / rate, recording.duration)
     return evaluated(recording, time, f"resampled from {recording.rate:.4g} to {rate:g} Hz")
 
