@@ -27,6 +27,7 @@ set(DMP_core_SOURCES
   primitive/position_motion.cpp
   primitive/spring_damper.cpp
   spline/collocation.cpp
+  spline/end_conditions.cpp
   spline/smoothing_fit.cpp
   spline/spline.cpp)
 set(DMP_kinematics_SOURCES

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "spline/end_conditions.hpp"
 #include "spline/local_basis.hpp"
 
 namespace dmp::detail {
@@ -9,42 +10,72 @@ namespace {
 
 using Eigen::Index;
 
-Knots not_a_knot(const Eigen::VectorXd& times, int degree) {
+std::array<bool, 2> conditioned(const std::array<SplineEnd, 2>& ends) {
+  return {ends[0] != SplineEnd::not_a_knot, ends[1] != SplineEnd::not_a_knot};
+}
+
+/// A knot at every sample but for the ends; without a condition two more at either end are left out.
+Knots knots_at(const Eigen::VectorXd& times, int degree, const std::array<bool, 2>& conditioned) {
   const Index n = times.size();
-  const Index skipped = (degree + 1) / 2;  // samples at either end that are no knots
+  const Index skipped = (degree + 1) / 2;
   std::vector<double> knots(static_cast<std::size_t>(degree) + 1, times[0]);
   if (n > degree + 1)
-    for (Index i = skipped; i < n - skipped; ++i) knots.push_back(times[i]);
+    for (Index i = conditioned[0] ? 1 : skipped; i < n - (conditioned[1] ? 1 : skipped); ++i)
+      knots.push_back(times[i]);
   knots.insert(knots.end(), static_cast<std::size_t>(degree) + 1, times[n - 1]);
   return {std::move(knots), degree};
 }
 
 }  // namespace
 
-Collocation::Collocation(const Eigen::VectorXd& times)
-    : knots_(not_a_knot(times, static_cast<int>(std::min<Index>(kDegree, times.size() - 1)))),
-      band_(static_cast<std::size_t>(times.size() * kWidth), 0.0) {
-  extent_.reserve(static_cast<std::size_t>(times.size()));
-  fill(times);
+Collocation::Collocation(const Eigen::VectorXd& times, const std::array<SplineEnd, 2>& ends)
+    : times_(times),
+      conditioned_(conditioned(ends)),
+      knots_(knots_at(times, static_cast<int>(std::min<Index>(kDegree, times.size() - 1)), conditioned_)),
+      band_(static_cast<std::size_t>(knots_.count() * kWidth), 0.0) {
+  extent_.reserve(static_cast<std::size_t>(knots_.count()));
+  fill();
   factorise();
 }
 
-void Collocation::fill(const Eigen::VectorXd& times) {
+bool Collocation::serves(const std::array<SplineEnd, 2>& ends) const noexcept {
+  return conditioned(ends) == conditioned_;
+}
+
+/// The conditions stand next to the outermost samples, so that the matrix stays a band.
+void Collocation::fill() {
+  const Index last = times_.size() - 1;
+  add_sample(times_[0]);
+  if (conditioned_[0])
+    for (const int order : {3, 4}) add_condition(order, true);
+  for (Index i = 1; i < last; ++i) add_sample(times_[i]);
+  if (conditioned_[1])
+    for (const int order : {4, 3}) add_condition(order, false);
+  add_sample(times_[last]);
+}
+
+void Collocation::add_sample(double time) {
   const int degree = knots_.degree();
-  Index at = degree;
-  for (Index i = 0; i < times.size(); ++i) {
-    at = knots_.interval(times[i], at);
-    const LocalBasis basis(knots_, at, times[i]);
-    int first = degree;
-    int last = 0;
-    for (int j = 0; j <= degree; ++j) {
-      if (basis.values[0][j] == 0.0) continue;
-      first = std::min(first, j);
-      last = std::max(last, j);
-      element(i, at - degree + j) = basis.values[0][j];
-    }
-    extent_.push_back({static_cast<int>(at) - degree + first, static_cast<int>(at) - degree + last});
+  const Index row = static_cast<Index>(extent_.size());
+  const Index at = knots_.interval(time, row + (degree + 1) / 2);
+  const LocalBasis basis(knots_, at, time);
+  int first = degree;
+  int last = 0;
+  for (int j = 0; j <= degree; ++j) {
+    if (basis.values[0][j] == 0.0) continue;
+    first = std::min(first, j);
+    last = std::max(last, j);
+    element(row, at - degree + j) = basis.values[0][j];
   }
+  extent_.push_back({static_cast<int>(at) - degree + first, static_cast<int>(at) - degree + last});
+}
+
+void Collocation::add_condition(int order, bool at_begin) {
+  const EndDerivative derivative(knots_, order, at_begin);
+  const Index row = static_cast<Index>(extent_.size());
+  for (int j = 0; j <= order; ++j)
+    element(row, derivative.first + j) = derivative.weights[static_cast<std::size_t>(j)];
+  extent_.push_back({static_cast<int>(derivative.first), static_cast<int>(derivative.first) + order});
 }
 
 /// Elimination without pivoting, which is stable for a B-spline collocation matrix (totally positive: de Boor

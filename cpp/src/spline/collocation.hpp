@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dmp/spline.hpp>
 #include <dmp/trajectory.hpp>
 
 #include <Eigen/Core>
@@ -10,22 +11,28 @@
 
 namespace dmp::detail {
 
-/// The B-splines through samples at given times (not-a-knot ends; de Boor 1978, chapter XIII): the matrix of
-/// their values at the samples, factorised once for all values that are sampled at these times.
+/// The B-splines through samples at given times (de Boor 1978, chapter XIII): the matrix of their values at
+/// the samples, and of their derivatives at ends that have a condition, factorised once for all values that
+/// are sampled at these times.
 class Collocation {
  public:
   /// times (T) s, strictly increasing, T >= 2; the degree is 5, or T - 1 for fewer samples.
-  explicit Collocation(const Eigen::VectorXd& times);
+  Collocation(const Eigen::VectorXd& times, const std::array<SplineEnd, 2>& ends);
 
+  const Eigen::VectorXd& times() const noexcept { return times_; }
   const Knots& knots() const noexcept { return knots_; }
-  /// values (T x d) at the samples become the coefficients.
+  /// Whether the matrix serves these ends, too: the two conditions differ by the values alone.
+  bool serves(const std::array<SplineEnd, 2>& ends) const noexcept;
+  /// values (T x d) at the samples, with the rows of with_end_conditions, become the coefficients.
   void solve(RowMatrix& values) const;
 
  private:
   static constexpr int kDegree = 5;
   static constexpr int kWidth = 2 * kDegree + 1;
 
-  void fill(const Eigen::VectorXd& times);
+  void fill();
+  void add_sample(double time);
+  void add_condition(int order, bool at_begin);
   void factorise();
   double& element(Eigen::Index row, Eigen::Index column) {
     return band_[static_cast<std::size_t>(row * kWidth + column - row + kDegree)];
@@ -33,6 +40,8 @@ class Collocation {
   template <int Columns>
   void substitute(double* values, Eigen::Index columns) const noexcept;
 
+  Eigen::VectorXd times_;
+  std::array<bool, 2> conditioned_;
   Knots knots_;
   std::vector<double> band_;  // L below the diagonal, 1 / U(i, i) on it, U above it
   struct Extent {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "spline/collocation.hpp"
+#include "spline/end_conditions.hpp"
 #include "spline/local_basis.hpp"
 #include "spline/smoothing_fit.hpp"
 
@@ -51,9 +52,14 @@ void require(const Eigen::VectorXd& times, const RowMatrix& values) {
 
 Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values) {
   require(times, values);
-  grid_ = std::make_shared<const detail::Collocation>(times);
-  knots_ = {grid_, &grid_->knots()};
-  coefficients_[0] = values;
+  const auto ends = detail::end_conditions(times, values);
+  *this = {std::make_shared<const detail::Collocation>(times, ends), ends, values};
+}
+
+Spline::Spline(std::shared_ptr<const detail::Collocation> grid, const std::array<SplineEnd, 2>& ends,
+               const RowMatrix& values)
+    : grid_(std::move(grid)), knots_(grid_, &grid_->knots()), ends_(ends) {
+  coefficients_[0] = detail::with_end_conditions(values, grid_->times(), *knots_, ends);
   grid_->solve(coefficients_[0]);
   differentiate();
 }
@@ -68,15 +74,13 @@ Spline Spline::through(const RowMatrix& values) const {
   if (!grid_)
     throw InvalidArgument(
         "through: a smoothing spline does not go through its samples; make an interpolating one.");
-  if (values.rows() != knots_->count())
+  if (values.rows() != grid_->times().size())
     throw InvalidArgument("values: " + std::to_string(values.rows()) +
                           " rows, expected one for each sample of an interpolating spline.");
   require_finite(values);
-  RowMatrix coefficients = values;
-  grid_->solve(coefficients);
-  Spline spline(knots_, std::move(coefficients));
-  spline.grid_ = grid_;
-  return spline;
+  const auto ends = detail::end_conditions(grid_->times(), values);
+  if (!grid_->serves(ends)) return {grid_->times(), values};
+  return {grid_, ends, values};
 }
 
 Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report) {
