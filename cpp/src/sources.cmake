@@ -26,7 +26,9 @@ set(DMP_core_SOURCES
   primitive/pose_dmp.cpp
   primitive/position_motion.cpp
   primitive/spring_damper.cpp
+  spline/band_cholesky.cpp
   spline/collocation.cpp
+  spline/denoising.cpp
   spline/end_conditions.cpp
   spline/smoothing_fit.cpp
   spline/spline.cpp)

@@ -1,4 +1,6 @@
+#include <pybind11/native_enum.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 #include <dmp/demonstration.hpp>
 
 #include "arrays.hpp"
@@ -142,14 +144,74 @@ void bind_orientation_demonstration(py::module_& m) {
           "The same motion on the smoothing spline: the noise is found in the data (generalised "
           "cross-validation) and "
           "taken out; see assess().")
+      .def(
+          "denoised",
+          [](const OrientationDemonstration& d) {
+            const py::gil_scoped_release release;
+            return d.denoised();
+          },
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it is; see "
+          "noise_estimate() and NoiseEstimate.")
+      .def(
+          "noise_estimate",
+          [](const OrientationDemonstration& d) {
+            NoiseEstimate found;
+            const py::gil_scoped_release release;
+            d.denoised(&found);
+            return found;
+          },
+          "Whether the samples carry noise that can be taken out, with the evidence.")
+      .def(
+          "with_measured",
+          [](const OrientationDemonstration& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          py::arg("measured"),
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the "
+          "way, but no noise.")
       .def("__repr__", [](const O& d) { return shown_samples("OrientationDemonstration", d.time()); })
       .def("__len__", &O::size);
+}
+
+void bind_noise(py::module_& m) {
+  py::native_enum<NoiseKind>(m, "NoiseKind", "enum.Enum",
+                             "none: samples are learned as they are; white: each has an error of its own; "
+                             "coloured: the error wanders, as that of a tracker.")
+      .value("none", NoiseKind::none)
+      .value("white", NoiseKind::white)
+      .value("coloured", NoiseKind::coloured)
+      .finalize();
+  py::class_<NoiseEstimate>(
+      m, "NoiseEstimate",
+      "Whether samples carry noise that can be taken out without taking part of the motion, and the evidence. "
+      "White noise is taken out if freedom <= 0.5, flatness <= 1.55, evenness >= 0.5 or correlation <= 0.1, and "
+      "sharpness >= 1.25.")
+      .def_readonly("kind", &NoiseEstimate::kind)
+      .def_readonly("sigma", &NoiseEstimate::sigma,
+                    "standard deviation along one axis, unit of the samples or rad; 0 if there is none")
+      .def_readonly("removed", &NoiseEstimate::removed,
+                    "root of the mean square that smoothing takes out, all axes together")
+      .def_readonly("cutoff", &NoiseEstimate::cutoff, "Hz, where the smoothing leaves half the power; 0 if none")
+      .def_readonly("unpredicted", &NoiseEstimate::unpredicted,
+                    "RMS by which a sample differs from what its six neighbours predict, all axes together")
+      .def_readonly("freedom", &NoiseEstimate::freedom,
+                    "degrees of freedom of the smoothed motion over the samples that were measured")
+      .def_readonly("flatness", &NoiseEstimate::flatness,
+                    "sqrt(V(.6) / V(.8)), V(e) the variance left by a fit of freedom e; 1.2 for noise")
+      .def_readonly("evenness", &NoiseEstimate::evenness,
+                    "residual where the motion is calm over that where it is busy; 1 for noise")
+      .def_readonly("correlation", &NoiseEstimate::correlation,
+                    "of neighbouring residuals where the motion is busy; below 0 for noise")
+      .def_readonly("sharpness", &NoiseEstimate::sharpness,
+                    "largest acceleration of the samples as they are over that of the smoothed motion")
+      .def_readonly("resting", &NoiseEstimate::resting, "speed where the motion is busy over that where it is calm")
+      .def_readonly("measured", &NoiseEstimate::measured, "samples that were measured, not filled in or held")
+      .def_property_readonly("found", &NoiseEstimate::found, "whether the kind is not none");
 }
 
 }  // namespace
 
 void bind_demonstration(py::module_& m) {
   bind_trajectories(m);
+  bind_noise(m);
   py::class_<Demonstration>(m, "Demonstration",
                             "Positions over time as they were recorded, in any number of dimensions.")
       .def(py::init([](const Array& times, const Array& positions) {
@@ -173,6 +235,29 @@ void bind_demonstration(py::module_& m) {
           "The same motion on the smoothing spline: the noise is found in the data (generalised "
           "cross-validation) and taken "
           "out; see assess().")
+      .def(
+          "denoised",
+          [](const Demonstration& d) {
+            const py::gil_scoped_release release;
+            return d.denoised();
+          },
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it is; see "
+          "noise_estimate() and NoiseEstimate.")
+      .def(
+          "noise_estimate",
+          [](const Demonstration& d) {
+            NoiseEstimate found;
+            const py::gil_scoped_release release;
+            d.denoised(&found);
+            return found;
+          },
+          "Whether the samples carry noise that can be taken out, with the evidence.")
+      .def(
+          "with_measured",
+          [](const Demonstration& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          py::arg("measured"),
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the "
+          "way, but no noise.")
       .def("__repr__", [](const Demonstration& d) { return shown_samples("Demonstration", d.time()); })
       .def("__len__", &Demonstration::size);
   bind_orientation_demonstration(m);
@@ -221,6 +306,29 @@ void bind_demonstration(py::module_& m) {
           "(6,) standard deviation of the noise found in the data by generalised cross-validation: of "
           "positions "
           "[m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples")
+      .def(
+          "denoised",
+          [](const PoseDemonstration& d) {
+            const py::gil_scoped_release release;
+            return d.denoised();
+          },
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it is; see "
+          "noise_estimate() and NoiseEstimate.")
+      .def(
+          "noise_estimates",
+          [](const PoseDemonstration& d) {
+            std::pair<NoiseEstimate, NoiseEstimate> found;
+            const py::gil_scoped_release release;
+            d.denoised(&found.first, &found.second);
+            return found;
+          },
+          "Whether positions [m] and orientations [rad] carry noise that can be taken out, with the evidence.")
+      .def(
+          "with_measured",
+          [](const PoseDemonstration& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          py::arg("measured"),
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the "
+          "way, but no noise.")
       .def("__repr__",
            [](const PoseDemonstration& d) { return shown_samples("PoseDemonstration", d.time()); })
       .def("__len__", &PoseDemonstration::size);

@@ -94,12 +94,12 @@ TEST_CASE("a smooth motion keeps not-a-knot ends, and so do few samples") {
   const Eigen::VectorXd times = irregular(200, 2.0);
   RowMatrix values(200, 2);
   for (int k = 0; k < 200; ++k) values.row(k) << std::sin(3 * times[k]), std::exp(times[k]);
-  const std::array<SplineEnd, 2> free{SplineEnd::not_a_knot, SplineEnd::not_a_knot};
+  const std::array<EndCondition, 2> free{EndCondition::not_a_knot, EndCondition::not_a_knot};
   CHECK(Spline(times, values).ends() == free);
   CHECK(Spline(times, RowMatrix(RowMatrix::Constant(200, 3, 0.7))).ends() == free);
   CHECK(Spline(irregular(11, 1.0), noise(11, 3, 1)).ends() == free);
   CHECK(Spline::smoothing(times, values).ends() ==
-        std::array<SplineEnd, 2>{SplineEnd::natural, SplineEnd::natural});
+        std::array<EndCondition, 2>{EndCondition::natural, EndCondition::natural});
 }
 
 TEST_CASE("white noise is no larger at the ends of an interpolating spline than inside it") {
@@ -122,8 +122,8 @@ TEST_CASE("an end of its own condition passes through the samples on any grid, b
     if (seed % 3 != 0) values.topRows(20) += 0.01 * noise(20, 3, seed);
     if (seed % 3 != 1) values.bottomRows(20) += 0.01 * noise(20, 3, seed + 100);
     const Spline spline(times, values);
-    CHECK((spline.ends()[0] == SplineEnd::not_a_knot) == (seed % 3 == 0));
-    CHECK((spline.ends()[1] == SplineEnd::not_a_knot) == (seed % 3 == 1));
+    CHECK((spline.ends()[0] == EndCondition::not_a_knot) == (seed % 3 == 0));
+    CHECK((spline.ends()[1] == EndCondition::not_a_knot) == (seed % 3 == 1));
     CHECK((spline.sample(times).value - values).cwiseAbs().maxCoeff() < 1e-12);
   }
 }
@@ -131,12 +131,12 @@ TEST_CASE("an end of its own condition passes through the samples on any grid, b
 TEST_CASE("a natural end has no third derivative; third_difference takes that of the last four samples") {
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(61, 0.0, 60.0);
   const Spline natural(times, noise(61, 1, 3));
-  REQUIRE(natural.ends()[0] == SplineEnd::natural);
+  REQUIRE(natural.ends()[0] == EndCondition::natural);
   CHECK(std::abs(third(natural, 0.0, 1e-3)[0]) < 1e-5);
   RowMatrix cubic = 0.01 * times.array().cube();
   cubic.array() += 0.004 * noise(61, 1, 1).array();
   const Spline fitted(times, cubic);
-  REQUIRE(fitted.ends()[1] == SplineEnd::third_difference);
+  REQUIRE(fitted.ends()[1] == EndCondition::third_difference);
   const double difference = cubic(60) - 3 * cubic(59) + 3 * cubic(58) - cubic(57);
   CHECK(third(fitted, 60.0 - 1e-3, 60.0)[0] == doctest::Approx(difference).epsilon(1e-3));
 }

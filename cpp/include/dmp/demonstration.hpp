@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dmp/export.hpp>
+#include <dmp/noise.hpp>
 #include <dmp/spline.hpp>
 #include <dmp/trajectory.hpp>
 
@@ -10,6 +11,10 @@
 #include <vector>
 
 namespace dmp {
+
+namespace detail {
+class LazyGrid;
+}  // namespace detail
 
 /// Positions over time as they were recorded, in any number of dimensions, with the derivatives of the
 /// interpolating quintic spline. Times count from the first sample.
@@ -37,12 +42,21 @@ class DMP_EXPORT Demonstration {
   /// out.
   Demonstration smoothed(Smoothing* report = nullptr) const;
 
+  /// The same motion without its noise, where the samples show that they carry any, otherwise as it is; see
+  /// NoiseEstimate. The report says what was found.
+  Demonstration denoised(NoiseEstimate* report = nullptr) const;
+  /// The same motion, of whose samples some were filled in: measured (T), 0 for those, 1 for the others. They
+  /// show the way, but no noise. Throws InvalidArgument for another number.
+  Demonstration with_measured(const Eigen::VectorXd& measured) const;
+
  private:
   friend class PoseDemonstration;
+  Demonstration denoised(detail::LazyGrid& grid, NoiseEstimate* report) const;
   Demonstration(Eigen::VectorXd time, RowMatrix position, Spline spline);
   Eigen::VectorXd time_;
   RowMatrix position_;
   Spline spline_;
+  Eigen::VectorXd measured_;  // empty: all
 };
 
 /// Orientations over time, with the angular velocities and accelerations (world frame) of the quintic spline
@@ -76,9 +90,13 @@ class DMP_EXPORT OrientationDemonstration {
   /// The same motion with its quaternions on the smoothing spline, renormalised. The report has one number
   /// each, in rad about every axis.
   OrientationDemonstration smoothed(Smoothing* report = nullptr) const;
+  /// As Demonstration::denoised, in rad.
+  OrientationDemonstration denoised(NoiseEstimate* report = nullptr) const;
+  OrientationDemonstration with_measured(const Eigen::VectorXd& measured) const;
 
  private:
   friend class PoseDemonstration;
+  OrientationDemonstration denoised(detail::LazyGrid& grid, NoiseEstimate* report) const;
   OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline);
   /// At the times of `grid`, whose spline goes through samples; `what` names the rotations where one is bad.
   static OrientationDemonstration on(const Eigen::VectorXd& time, const Spline& grid,
@@ -86,6 +104,7 @@ class DMP_EXPORT OrientationDemonstration {
   Eigen::VectorXd time_;
   Rotations rotation_;
   Spline spline_;
+  Eigen::VectorXd measured_;
 };
 
 /// Positions and orientations of one body, at the same times.
@@ -107,6 +126,9 @@ class DMP_EXPORT PoseDemonstration {
   PoseDemonstration with(const Poses& poses) const;
   /// Both parts smoothed.
   PoseDemonstration smoothed(Smoothing* position = nullptr, Smoothing* orientation = nullptr) const;
+  /// Each part without its noise, where it has any; see Demonstration::denoised.
+  PoseDemonstration denoised(NoiseEstimate* position = nullptr, NoiseEstimate* orientation = nullptr) const;
+  PoseDemonstration with_measured(const Eigen::VectorXd& measured) const;
 
  private:
   PoseDemonstration(Demonstration position, OrientationDemonstration orientation);

@@ -14,6 +14,11 @@ class Collocation;
 class Knots;
 }  // namespace detail
 
+class Spline;
+namespace detail {
+Spline spline_of(std::shared_ptr<const Knots> knots, RowMatrix coefficients);
+}  // namespace detail
+
 /// What a smoothing spline took out of its samples.
 struct Smoothing {
   Eigen::VectorXd
@@ -22,7 +27,7 @@ struct Smoothing {
 };
 
 /// What closes an interpolating spline at either end, where the samples alone leave two conditions open.
-enum class SplineEnd {
+enum class EndCondition {
   not_a_knot,        ///< the outermost pieces are one quintic: exact for smooth samples, amplifies noise
   third_difference,  ///< f'''' = 0, and f''' the third divided difference of the last four samples
   natural            ///< f''' = f'''' = 0
@@ -44,7 +49,8 @@ class DMP_EXPORT Spline {
 
   /// The quintic spline that weighs closeness to the samples against the integral of its squared third
   /// derivative, by generalised cross-validation over all columns together (Craven and Wahba 1979): the noise
-  /// is found in the data. With fewer than ten samples it is the interpolating one.
+  /// is found in the data. Samples that repeat the one before count for nothing unless that is usual. With
+  /// fewer than ten samples it is the interpolating one.
   static Spline smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report = nullptr);
 
   /// The spline through other values (T x d) at the same times: what depends on the times alone is shared
@@ -52,8 +58,9 @@ class DMP_EXPORT Spline {
   Spline through(const RowMatrix& values) const;
 
   Eigen::Index dimension() const noexcept { return coefficients_[0].cols(); }
+  bool interpolates() const noexcept { return grid_ != nullptr; }  ///< false for a smoothing spline
   /// The conditions at the first and at the last sample; natural for a smoothing spline.
-  const std::array<SplineEnd, 2>& ends() const noexcept { return ends_; }
+  const std::array<EndCondition, 2>& ends() const noexcept { return ends_; }
 
   /// Value, first and second derivative at each time (extrapolated by the end polynomial), each (times x d).
   /// Throws InvalidArgument for a time that is not finite, or so far away that the polynomial overflows.
@@ -65,8 +72,9 @@ class DMP_EXPORT Spline {
   Samples sample(const Eigen::VectorXd& times) const;
 
  private:
+  friend Spline detail::spline_of(std::shared_ptr<const detail::Knots> knots, RowMatrix coefficients);
   Spline(std::shared_ptr<const detail::Knots> knots, RowMatrix coefficients);
-  Spline(std::shared_ptr<const detail::Collocation> grid, const std::array<SplineEnd, 2>& ends,
+  Spline(std::shared_ptr<const detail::Collocation> grid, const std::array<EndCondition, 2>& ends,
          const RowMatrix& values);
   void differentiate();
   template <int Columns>
@@ -74,7 +82,7 @@ class DMP_EXPORT Spline {
 
   std::shared_ptr<const detail::Collocation> grid_;  // of the interpolating ones
   std::shared_ptr<const detail::Knots> knots_;
-  std::array<SplineEnd, 2> ends_{SplineEnd::natural, SplineEnd::natural};
+  std::array<EndCondition, 2> ends_{EndCondition::natural, EndCondition::natural};
   RowMatrix coefficients_[3];  // of the spline and its first two derivatives
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "spline/denoising.hpp"
 
 namespace dmp {
 namespace {
@@ -87,6 +88,25 @@ Quaterniond quaternion(const RowMatrix& table, Index k) {
   return {table(k, 0), table(k, 1), table(k, 2), table(k, 3)};
 }
 
+Rotations rotations_along(const RowMatrix& table) {
+  Rotations rotations;
+  rotations.reserve(static_cast<std::size_t>(table.rows()));
+  for (Index k = 0; k < table.rows(); ++k)
+    rotations.push_back(quaternion(table, k).normalized().toRotationMatrix());
+  return rotations;
+}
+
+/// A turn by v changes a quaternion by v / 2.
+void as_turns(NoiseEstimate& found) {
+  for (double* const value : {&found.sigma, &found.removed, &found.unpredicted}) *value *= 2.0;
+}
+
+void require_measured(const Eigen::VectorXd& measured, Index count) {
+  if (measured.size() != count)
+    throw InvalidArgument("measured: " + std::to_string(measured.size()) +
+                          " of them, expected one for each of the " + std::to_string(count) + " samples.");
+}
+
 RowMatrix positions_of(const Poses& poses) {
   RowMatrix positions(static_cast<Index>(poses.size()), 3);
   for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -157,6 +177,29 @@ Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
 Demonstration::Demonstration(Eigen::VectorXd time, RowMatrix position, Spline spline)
     : time_(std::move(time)), position_(std::move(position)), spline_(std::move(spline)) {}
 
+Demonstration Demonstration::denoised(NoiseEstimate* report) const {
+  detail::LazyGrid grid(time_, detail::measured_weights(measured_, position_));
+  return denoised(grid, report);
+}
+
+Demonstration Demonstration::denoised(detail::LazyGrid& grid, NoiseEstimate* report) const {
+  if (report) *report = {};
+  if (!spline_.interpolates()) return *this;
+  detail::Denoised result = detail::denoise(grid, position_, static_cast<int>(dimension()), spline_);
+  if (report) *report = result.estimate;
+  if (!result.curve) return *this;
+  Spline spline = detail::spline_of(std::move(result.curve->knots), std::move(result.curve->coefficients));
+  RowMatrix position = spline.sample(time_).value;
+  return {time_, std::move(position), std::move(spline)};
+}
+
+Demonstration Demonstration::with_measured(const Eigen::VectorXd& measured) const {
+  require_measured(measured, size());
+  Demonstration copy = *this;
+  copy.measured_ = measured;
+  return copy;
+}
+
 Demonstration Demonstration::smoothed(Smoothing* report) const {
   Spline spline = Spline::smoothing(time_, position_, report);
   RowMatrix position = spline.sample(time_).value;
@@ -183,13 +226,35 @@ OrientationDemonstration OrientationDemonstration::with(const Rotations& rotatio
   return on(time_, spline_, rotations, "rotations");
 }
 
+OrientationDemonstration OrientationDemonstration::denoised(NoiseEstimate* report) const {
+  detail::LazyGrid grid(time_, detail::measured_weights(measured_, continuous_quaternions(rotation_)));
+  return denoised(grid, report);
+}
+
+OrientationDemonstration OrientationDemonstration::denoised(detail::LazyGrid& grid,
+                                                            NoiseEstimate* report) const {
+  if (report) *report = {};
+  if (!spline_.interpolates()) return *this;
+  detail::Denoised result = detail::denoise(grid, continuous_quaternions(rotation_), 3, spline_);
+  as_turns(result.estimate);
+  if (report) *report = result.estimate;
+  if (!result.curve) return *this;
+  Spline spline = detail::spline_of(std::move(result.curve->knots), std::move(result.curve->coefficients));
+  Rotations rotations = rotations_along(spline.sample(time_).value);
+  return {time_, std::move(rotations), std::move(spline)};
+}
+
+OrientationDemonstration OrientationDemonstration::with_measured(const Eigen::VectorXd& measured) const {
+  require_measured(measured, size());
+  OrientationDemonstration copy = *this;
+  copy.measured_ = measured;
+  return copy;
+}
+
 OrientationDemonstration OrientationDemonstration::smoothed(Smoothing* report) const {
   Smoothing found;
   Spline spline = Spline::smoothing(time_, continuous_quaternions(rotation_), &found);
-  const RowMatrix values = spline.sample(time_).value;
-  Rotations rotations;
-  for (Index k = 0; k < values.rows(); ++k)
-    rotations.push_back(quaternion(values, k).normalized().toRotationMatrix());
+  Rotations rotations = rotations_along(spline.sample(time_).value);
   // A turn by v changes a quaternion by v / 2, which has three free directions of its four.
   const auto per_axis = [](const Eigen::VectorXd& q) {
     return Eigen::VectorXd::Constant(1, 2.0 * q.norm() / std::sqrt(3.0));
@@ -266,6 +331,16 @@ PoseDemonstration PoseDemonstration::with(const Poses& poses) const {
 
 PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* orientation) const {
   return {position_.smoothed(position), orientation_.smoothed(orientation)};
+}
+
+PoseDemonstration PoseDemonstration::denoised(NoiseEstimate* position, NoiseEstimate* orientation) const {
+  const RowMatrix turns = continuous_quaternions(orientation_.rotation_);
+  detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, position_.position_, &turns));
+  return {position_.denoised(grid, position), orientation_.denoised(grid, orientation)};
+}
+
+PoseDemonstration PoseDemonstration::with_measured(const Eigen::VectorXd& measured) const {
+  return {position_.with_measured(measured), orientation_.with_measured(measured)};
 }
 
 Poses PoseDemonstration::pose() const {

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Index;
 
-std::array<bool, 2> conditioned(const std::array<SplineEnd, 2>& ends) {
-  return {ends[0] != SplineEnd::not_a_knot, ends[1] != SplineEnd::not_a_knot};
+std::array<bool, 2> conditioned(const std::array<EndCondition, 2>& ends) {
+  return {ends[0] != EndCondition::not_a_knot, ends[1] != EndCondition::not_a_knot};
 }
 
 /// A knot at every sample but for the ends; without a condition two more at either end are left out.
@@ -28,7 +28,7 @@ Knots knots_at(const Eigen::VectorXd& times, int degree, const std::array<bool, 
 
 }  // namespace
 
-Collocation::Collocation(const Eigen::VectorXd& times, const std::array<SplineEnd, 2>& ends)
+Collocation::Collocation(const Eigen::VectorXd& times, const std::array<EndCondition, 2>& ends)
     : times_(times),
       conditioned_(conditioned(ends)),
       knots_(knots_at(times, static_cast<int>(std::min<Index>(kDegree, times.size() - 1)), conditioned_)),
@@ -38,7 +38,7 @@ Collocation::Collocation(const Eigen::VectorXd& times, const std::array<SplineEn
   factorise();
 }
 
-bool Collocation::serves(const std::array<SplineEnd, 2>& ends) const noexcept {
+bool Collocation::serves(const std::array<EndCondition, 2>& ends) const noexcept {
   return conditioned(ends) == conditioned_;
 }
 

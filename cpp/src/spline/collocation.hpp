@@ -17,12 +17,12 @@ namespace dmp::detail {
 class Collocation {
  public:
   /// times (T) s, strictly increasing, T >= 2; the degree is 5, or T - 1 for fewer samples.
-  Collocation(const Eigen::VectorXd& times, const std::array<SplineEnd, 2>& ends);
+  Collocation(const Eigen::VectorXd& times, const std::array<EndCondition, 2>& ends);
 
   const Eigen::VectorXd& times() const noexcept { return times_; }
   const Knots& knots() const noexcept { return knots_; }
   /// Whether the matrix serves these ends, too: the two conditions differ by the values alone.
-  bool serves(const std::array<SplineEnd, 2>& ends) const noexcept;
+  bool serves(const std::array<EndCondition, 2>& ends) const noexcept;
   /// values (T x d) at the samples, with the rows of with_end_conditions, become the coefficients.
   void solve(RowMatrix& values) const;
 

@@ -37,20 +37,20 @@ double roughness(const VectorXd& times, const RowMatrix& values, bool at_begin, 
   return std::sqrt(squares / 3.0) * std::pow(mean_step, order);
 }
 
-SplineEnd condition_at(const VectorXd& times, const RowMatrix& values, bool at_begin) {
+EndCondition condition_at(const VectorXd& times, const RowMatrix& values, bool at_begin) {
   const double third = roughness(times, values, at_begin, 3);
   const double fourth = roughness(times, values, at_begin, 4);
   const double sixth = roughness(times, values, at_begin, 6);
   // Differences of exact samples carry their rounding, 2^order times as large.
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * values.cwiseAbs().maxCoeff();
-  if (sixth <= std::max(std::min(third, fourth), rounding)) return SplineEnd::not_a_knot;
-  return fourth <= third ? SplineEnd::third_difference : SplineEnd::natural;
+  if (sixth <= std::max(std::min(third, fourth), rounding)) return EndCondition::not_a_knot;
+  return fourth <= third ? EndCondition::third_difference : EndCondition::natural;
 }
 
 }  // namespace
 
-std::array<SplineEnd, 2> end_conditions(const VectorXd& times, const RowMatrix& values) {
-  if (times.size() < kFewest) return {SplineEnd::not_a_knot, SplineEnd::not_a_knot};
+std::array<EndCondition, 2> end_conditions(const VectorXd& times, const RowMatrix& values) {
+  if (times.size() < kFewest) return {EndCondition::not_a_knot, EndCondition::not_a_knot};
   return {condition_at(times, values, true), condition_at(times, values, false)};
 }
 
@@ -77,18 +77,18 @@ EndDerivative::EndDerivative(const Knots& knots, int order, bool at_begin)
 }
 
 RowMatrix with_end_conditions(const RowMatrix& values, const VectorXd& times, const Knots& knots,
-                              const std::array<SplineEnd, 2>& ends) {
-  if (ends[0] == SplineEnd::not_a_knot && ends[1] == SplineEnd::not_a_knot) return values;
+                              const std::array<EndCondition, 2>& ends) {
+  if (ends[0] == EndCondition::not_a_knot && ends[1] == EndCondition::not_a_knot) return values;
   const Index n = values.rows();
-  const Index before = ends[0] == SplineEnd::not_a_knot ? 0 : 2;
-  const Index after = ends[1] == SplineEnd::not_a_knot ? 0 : 2;
+  const Index before = ends[0] == EndCondition::not_a_knot ? 0 : 2;
+  const Index after = ends[1] == EndCondition::not_a_knot ? 0 : 2;
   RowMatrix all = RowMatrix::Zero(n + before + after, values.cols());
   all.row(0) = values.row(0);
   all.middleRows(1 + before, n - 2) = values.middleRows(1, n - 2);
   all.row(all.rows() - 1) = values.row(n - 1);
-  if (ends[0] == SplineEnd::third_difference)
+  if (ends[0] == EndCondition::third_difference)
     all.row(1) = EndDerivative(knots, 3, true).scale * divided_difference(times, values, 0, 1, 3);
-  if (ends[1] == SplineEnd::third_difference)
+  if (ends[1] == EndCondition::third_difference)
     all.row(all.rows() - 2) =
         EndDerivative(knots, 3, false).scale * divided_difference(times, values, n - 1, -1, 3);
   return all;

@@ -9,8 +9,8 @@
 
 namespace dmp::detail {
 
-/// Which condition predicts the samples at either end best; see SplineEnd.
-std::array<SplineEnd, 2> end_conditions(const Eigen::VectorXd& times, const RowMatrix& values);
+/// Which condition predicts the samples at either end best; see EndCondition.
+std::array<EndCondition, 2> end_conditions(const Eigen::VectorXd& times, const RowMatrix& values);
 
 /// The derivative of `order` at an end as a sum of the order + 1 coefficients next to it, scaled to a largest
 /// weight of 1: scale times the derivative = weights . coefficients[first ..].
@@ -25,6 +25,6 @@ struct EndDerivative {
 /// The samples (T x d) with two rows more at each end that has a condition: what its scaled fourth and third
 /// derivatives shall be.
 RowMatrix with_end_conditions(const RowMatrix& values, const Eigen::VectorXd& times, const Knots& knots,
-                              const std::array<SplineEnd, 2>& ends);
+                              const std::array<EndCondition, 2>& ends);
 
 }  // namespace dmp::detail

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "spline/collocation.hpp"
+#include "spline/denoising.hpp"
 #include "spline/end_conditions.hpp"
 #include "spline/local_basis.hpp"
-#include "spline/smoothing_fit.hpp"
 
 namespace dmp {
 namespace {
@@ -56,7 +56,7 @@ Spline::Spline(const Eigen::VectorXd& times, const RowMatrix& values) {
   *this = {std::make_shared<const detail::Collocation>(times, ends), ends, values};
 }
 
-Spline::Spline(std::shared_ptr<const detail::Collocation> grid, const std::array<SplineEnd, 2>& ends,
+Spline::Spline(std::shared_ptr<const detail::Collocation> grid, const std::array<EndCondition, 2>& ends,
                const RowMatrix& values)
     : grid_(std::move(grid)), knots_(grid_, &grid_->knots()), ends_(ends) {
   coefficients_[0] = detail::with_end_conditions(values, grid_->times(), *knots_, ends);
@@ -68,6 +68,10 @@ Spline::Spline(std::shared_ptr<const detail::Knots> knots, RowMatrix coefficient
     : knots_(std::move(knots)) {
   coefficients_[0] = std::move(coefficients);
   differentiate();
+}
+
+Spline detail::spline_of(std::shared_ptr<const Knots> knots, RowMatrix coefficients) {
+  return {std::move(knots), std::move(coefficients)};
 }
 
 Spline Spline::through(const RowMatrix& values) const {
@@ -87,12 +91,17 @@ Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, 
   if (report) *report = {Eigen::VectorXd::Zero(values.cols()), Eigen::VectorXd::Zero(values.cols())};
   if (times.size() < 10) return {times, values};
   require(times, values);
-  detail::SmoothingFit fit(times);
-  Spline spline(std::make_shared<const detail::Knots>(fit.knots()), fit.solve(values));
+  const Eigen::VectorXd weights = detail::measured_weights({}, values);
+  detail::SmoothingGrid grid(times, weights);
+  detail::SmoothingFit fit(grid, values);
+  const detail::SmoothingFit::Point best = fit.best();
+  detail::SmoothingFit::Curve curve = fit.curve(best.lambda);
+  Spline spline(std::move(curve.knots), std::move(curve.coefficients));
   if (report) {
     const RowMatrix residual = values - spline.sample(times).value;
-    report->removed = (residual.colwise().squaredNorm() / static_cast<double>(times.size())).cwiseSqrt();
-    report->noise = report->removed * std::sqrt(static_cast<double>(times.size()) / fit.freedom());
+    const auto squares = residual.array().square().colwise() * weights.array();
+    report->removed = (squares.colwise().sum().transpose() / grid.measured()).sqrt();
+    report->noise = report->removed * std::sqrt(grid.measured() / (grid.measured() - best.freedom));
   }
   return spline;
 }
