@@ -9,6 +9,7 @@ set(DMP_core_SOURCES
   motion/demonstration.cpp
   motion/dtw.cpp
   motion/spread.cpp
+  primitive/automatic_fit.cpp
   primitive/average.cpp
   primitive/basis.cpp
   primitive/batch.cpp

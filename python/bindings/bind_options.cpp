@@ -40,6 +40,7 @@ void bind_enums(py::module_& m) {
   py::native_enum<Regression>(m, "Regression", "enum.Enum", "How the weights are found.")
       .value("lwr", Regression::lwr)
       .value("ridge", Regression::ridge)
+      .value("automatic", Regression::automatic)
       .finalize();
   py::native_enum<Scaling>(m, "Scaling", "enum.Enum",
                            "By what the forcing term is multiplied when start and goal change.")
@@ -64,6 +65,7 @@ void bind_enums(py::module_& m) {
       .value("interpolate", Derivatives::interpolate)
       .value("smooth", Derivatives::smooth)
       .value("gradient", Derivatives::gradient)
+      .value("automatic", Derivatives::automatic)
       .finalize();
   py::native_enum<Start>(m, "Start", "enum.Enum", "What a rollout starts with.")
       .value("demonstrated", Start::demonstrated)
@@ -115,7 +117,7 @@ void bind_options(py::module_& m) {
       .def_static("source", &DmpOptions::source,
                   "The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and "
                   "E7 mended.")
-      .def_readwrite("basis_count", &DmpOptions::basis_count, "N, kernels")
+      .def_readwrite("basis_count", &DmpOptions::basis_count, "N, kernels; 0: as many as the demonstrations need")
       .def_readwrite("alpha", &DmpOptions::alpha, "spring and damper: tau zd = alpha (beta (g - y) - z) + f")
       .def_readwrite("beta", &DmpOptions::beta, "alpha / 4 unless given: critically damped")
       .def_readwrite("orientation_alpha", &DmpOptions::orientation_alpha, "alpha unless given")

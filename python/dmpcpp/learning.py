@@ -1,4 +1,4 @@
-"""As many kernels as a motion needs, its noise taken out, and the promise that the motion is reproduced."""
+"""A demonstration learned as the core learns it, what was found in it, and the promise that it is reproduced."""
 
 from __future__ import annotations
 
@@ -7,27 +7,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from dmpcpp import metrics, motion
-from dmpcpp._core import Derivatives, DmpOptions, FitReport, PoseDemonstration, PoseDmp, assess
+from dmpcpp._core import FitReport, NoiseEstimate, NoiseKind, PoseDemonstration, PoseDmp, assess
+from dmpcpp._takes import takes_apart
 from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.recordings import Recording
 
-__all__ = ["Lesson", "learn", "reproduction", "reproduction_checks", "teach"]
+__all__ = ["Evidence", "Lesson", "evidence", "learn", "reproduction", "reproduction_checks", "teach"]
 
-_KERNELS = (50, 100, 200, 400, 800)  # tried in this order until the motion is reproduced
-_GOOD_POSITION, _GOOD_ANGLE = 0.2e-3, math.radians(0.1)  # m, rad RMSE; below that more kernels are no use
-_KERNELS_PER_SAMPLE = 4  # more than that would learn the spline between the samples, not the motion
-_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE; what a reproduction must reach
-_MOST_POSITION, _MOST_ANGLE = 8e-3, math.radians(1.5)  # m, rad; what noise can excuse: fast motions look like it
-_LIMIT_NOISE = 3.0  # times the noise per axis; a motion without its noise lies sqrt(3) times it from the samples
-_SHAKEN = 5.0  # times; people's fast motions come to 3 with what looks like noise in them, calm ones with noise to 1000
-_SAMPLES = 1000  # at which accelerations are looked at
-_GOOD_NOISE = 1.8  # likewise, what more kernels can not get below
+_LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE to the motion without its noise
+_LIMIT_SHARE = 0.5  # of the error that smoothing leaves, if that is more
 
 
 def learn(
@@ -37,7 +29,10 @@ def learn(
     noise: Noise | None = None,
     smooth: bool = True,
 ) -> PoseDmp:
-    """Learn a demonstration with as many kernels as it needs to be reproduced to 0.2 mm and 0.1 deg RMSE.
+    """Learn a demonstration as `PoseDmp.fit` does by default.
+
+    Noise is taken out where the samples show that they carry any, and the model has as many kernels as it needs; its
+    options say what was used.
 
     Parameters
     ----------
@@ -45,65 +40,80 @@ def learn(
     basis_count : int, optional
         The number of kernels instead.
     noise : Noise, optional
-        What was found in the demonstration (`motion.noise`). Where a model without it would miss 1 mm or 0.5 deg,
-        smoothing it out is tried first, and 1.8 times the noise per axis is close enough. Where it would not, noise is
-        smoothed out all the same if it makes the accelerations: if they are five times as large with it.
+        Has no effect: noise is found in the demonstration itself.
     smooth : bool
-        Whether noise may be smoothed out; without it being known, this is tried where even the most kernels do not
-        reproduce the motion. The model's options tell: `derivatives` is "smooth".
-
-    Returns
-    -------
-    PoseDmp
-        The first that is close enough, or the one that came closest.
+        Whether noise may be taken out.
     """
-    known = noise is not None and max(noise.position, noise.angle) > 0.0
-    believed = _believed(noise or Noise(0.0, 0.0))
-    noisy = _is_noisy(noise or Noise(0.0, 0.0)) and smooth
-    counts = _KERNELS if basis_count is None else (basis_count,)
-    ways = ("interpolate",) if not smooth else ("smooth", "interpolate") if noisy else ("interpolate", "smooth")
-    if basis_count is not None:
-        ways = ways[:1]
-    model = _closest(demonstration, ways, counts, believed if noisy else Noise(0.0, 0.0))[1]
-    if not (known and smooth) or model.options.derivatives == Derivatives.smooth:
-        return model
-    miss, calm = _closest(demonstration, ("smooth",), counts, believed)
-    return calm if miss <= 1.0 and _is_shaken(model, calm) else model
+    return PoseDmp.fit(
+        demonstration, basis_count=basis_count or 0, derivatives="automatic" if smooth else "interpolate"
+    )
 
 
-def _closest(
-    demonstration: PoseDemonstration, ways: Sequence[str], counts: Sequence[int], noise: Noise
-) -> tuple[float, PoseDmp]:
-    """Return the first model that is close enough, or the closest, and how many times further off than that it is."""
-    best: tuple[float, PoseDmp] | None = None
-    for derivatives in ways:  # noise is learned with the motion unless it is taken out
-        for count in counts:
-            if best is not None and count > _KERNELS_PER_SAMPLE * len(demonstration):
-                break
-            model = PoseDmp.fit(demonstration, basis_count=count, derivatives=derivatives)
-            miss = _miss(reproduction(model, demonstration), noise)
-            if best is None or miss < best[0]:
-                best = miss, model
-            if miss <= 1.0:
-                return miss, model
-    assert best is not None
-    return best
+@dataclass(frozen=True)
+class Evidence:
+    """What a demonstration shows of noise, and whether it was taken out.
+
+    Attributes
+    ----------
+    position, orientation : NoiseEstimate
+        m, rad.
+    smoothed : bool
+    motion : PoseDemonstration
+        As it was learned.
+    """
+
+    position: NoiseEstimate
+    orientation: NoiseEstimate
+    smoothed: bool
+    motion: PoseDemonstration
+
+    @property
+    def noise(self) -> Noise:
+        """Standard deviation along and about one axis; 0 where there is none."""
+        return Noise(self.position.sigma, self.orientation.sigma)
+
+    @property
+    def sentence(self) -> str:
+        """Whether there is noise, what was done about it and how that was decided, in one sentence."""
+        parts = [
+            f"{1e3 * self.position.sigma:.2g} mm in positions ({_told(self.position)})" if self.position.found else "",
+            f"{math.degrees(self.orientation.sigma):.2g} deg in orientations ({_told(self.orientation)})"
+            if self.orientation.found
+            else "",
+        ]
+        found = " and ".join(part for part in parts if part)
+        if not found:
+            return "No noise found that could be told from the motion: the samples are learned as they are."
+        return f"Noise of {found} found and {'smoothed out' if self.smoothed else 'learned with the motion'}."
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON; m, rad, Hz."""
+        return {
+            "smoothed": self.smoothed,
+            "sentence": self.sentence,
+            "position": _as_dict(self.position),
+            "orientation": _as_dict(self.orientation),
+        }
 
 
-def _is_noisy(noise: Noise) -> bool:
-    return math.sqrt(3.0) * noise.position > _LIMIT_POSITION or math.sqrt(3.0) * noise.angle > _LIMIT_ANGLE
+def _told(found: NoiseEstimate) -> str:
+    kind = "white" if found.kind == NoiseKind.white else "wandering, seen at rest"
+    return (
+        f"{kind}, motion up to {found.cutoff:.2g} Hz kept, accelerations {found.sharpness:.2g} times as large with it"
+    )
 
 
-def _is_shaken(model: PoseDmp, calm: PoseDmp) -> bool:
-    """Whether the noise, and not the motion, makes a model's accelerations: they bound how fast an arm can be."""
-    with_noise, without = (_largest_accelerations(each) for each in (model, calm))
-    return any(a > _SHAKEN * b for a, b in zip(with_noise, without, strict=True))
+def _as_dict(found: NoiseEstimate) -> dict[str, Any]:
+    names = ("sigma", "removed", "cutoff", "freedom", "flatness", "evenness", "correlation", "sharpness", "measured")
+    numbers = {name: getattr(found, name) for name in names}
+    return {"kind": found.kind.name, **{k: v if math.isfinite(v) else None for k, v in numbers.items()}}
 
 
-def _largest_accelerations(model: PoseDmp) -> tuple[float, float]:
-    """Return the largest acceleration [m/s^2] and angular acceleration [rad/s^2] of the motion."""
-    rate = model.rollout(dt=model.duration / _SAMPLES).acceleration
-    return float(np.linalg.norm(rate[:, :3], axis=1).max()), float(np.linalg.norm(rate[:, 3:], axis=1).max())
+def evidence(demonstration: PoseDemonstration, *, smooth: bool = True) -> Evidence:
+    """Return what a demonstration shows of noise; `smooth` as in `learn`."""
+    position, orientation = demonstration.noise_estimates()
+    smoothed = smooth and (position.found or orientation.found)
+    return Evidence(position, orientation, smoothed, demonstration.denoised() if smoothed else demonstration)
 
 
 def reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
@@ -111,16 +121,15 @@ def reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageError
     return metrics.compare(demonstration.pose, model.rollout_at(demonstration.time).pose)
 
 
-def reproduction_checks(errors: StageErrors, noise: Noise) -> tuple[Check, ...]:
-    """Hold the reproduction against 1 mm and 0.5 deg RMSE, or three times the noise per axis if that is more, 8 mm
-    and 1.5 deg at most.
+def reproduction_checks(model: PoseDmp, found: Evidence) -> tuple[Check, ...]:
+    """Hold the model against the motion as it was learned, without the noise that was taken out of it.
 
-    A model that takes the noise out lies away from the samples by the noise: sqrt(3) times that of an axis. The
-    detail of each check is the noise per axis.
+    The limits are 1 mm and 0.5 deg RMSE, or half the error that smoothing itself leaves, sigma sqrt(3 freedom), if
+    that is more. The detail of each check says what was taken out of the samples.
     """
-    believed = _believed(noise)
-    position = max(_LIMIT_POSITION, _LIMIT_NOISE * believed.position)
-    angle = max(_LIMIT_ANGLE, _LIMIT_NOISE * believed.angle)
+    errors = reproduction(model, found.motion)
+    position = max(_LIMIT_POSITION, _LIMIT_SHARE * _left(found.position))
+    angle = max(_LIMIT_ANGLE, _LIMIT_SHARE * _left(found.orientation))
     return (
         Check(
             "reproduction_position_rmse",
@@ -128,7 +137,7 @@ def reproduction_checks(errors: StageErrors, noise: Noise) -> tuple[Check, ...]:
             errors.position_rmse,
             position,
             "m",
-            detail=f"noise {1e3 * noise.position:.2g} mm",
+            detail=f"{1e3 * found.position.removed * found.smoothed:.2g} mm of noise taken out",
         ),
         Check(
             "reproduction_angle_rmse",
@@ -136,21 +145,14 @@ def reproduction_checks(errors: StageErrors, noise: Noise) -> tuple[Check, ...]:
             errors.angle_rmse,
             angle,
             "rad",
-            detail=f"noise {math.degrees(noise.angle):.2g} deg",
+            detail=f"{math.degrees(found.orientation.removed) * found.smoothed:.2g} deg of noise taken out",
         ),
     )
 
 
-def _believed(noise: Noise) -> Noise:
-    """The noise, no more than 8 mm and 1.5 deg can be laid to."""
-    return Noise(min(noise.position, _MOST_POSITION / _LIMIT_NOISE), min(noise.angle, _MOST_ANGLE / _LIMIT_NOISE))
-
-
-def _miss(errors: StageErrors, noise: Noise) -> float:
-    """How many times further off than close enough."""
-    position = max(_GOOD_POSITION, _GOOD_NOISE * noise.position)
-    angle = max(_GOOD_ANGLE, _GOOD_NOISE * noise.angle)
-    return max(errors.position_rmse / position, errors.angle_rmse / angle)
+def _left(found: NoiseEstimate) -> float:
+    """Return the error that smoothing leaves."""
+    return found.sigma * math.sqrt(3.0 * found.freedom) if found.found else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,8 +168,10 @@ class Lesson(Checked):
     noise : tuple of Noise
         Found in each recording.
     checks : tuple of Check
-        Whether a single recording is reproduced; empty where several were learned together, which no model can
-        reproduce all.
+        Whether a single recording is reproduced; where several were learned together, which no model can reproduce
+        all, those that do not belong to the others.
+    evidence : tuple of Evidence
+        What each recording shows of noise, and whether it was taken out.
     """
 
     recordings: tuple[Recording, ...]
@@ -176,12 +180,15 @@ class Lesson(Checked):
     fit: FitReport
     noise: tuple[Noise, ...]
     checks: tuple[Check, ...]
+    evidence: tuple[Evidence, ...] = ()
 
     def summary(self) -> dict[str, Any]:
         """Return what `dmpcpp fit --json` prints; m, rad, s."""
         return {
             **self.judged(),
             "basis_count": self.model.options.basis_count,
+            "regression": self.model.options.regression.name,
+            "derivatives": self.model.options.derivatives.name,
             "duration": self.model.duration,
             "start": self.model.start.tolist(),
             "goal": self.model.goal.tolist(),
@@ -197,10 +204,10 @@ class Lesson(Checked):
                     "body": recording.body,
                     "samples": len(recording),
                     "duration": recording.duration,
-                    "noise": {"position": noise.position, "angle": noise.angle},
+                    "noise": {"position": noise.position, "angle": noise.angle, **found.to_dict()},
                     "history": list(recording.history),
                 }
-                for recording, noise in zip(self.recordings, self.noise, strict=True)
+                for recording, noise, found in zip(self.recordings, self.noise, self.evidence, strict=True)
             ],
         }
 
@@ -226,23 +233,14 @@ def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, sm
         raise InvalidArgument("recordings: none, expected at least one.")
     kept = tuple(motion.plausible(motion.continuous(recording)) for recording in recordings)
     demonstrations = tuple(map(motion.demonstration, kept))
-    noise = tuple(map(motion.noise, kept))
-    alone = [
-        learn(demonstration, basis_count, noise=found, smooth=smooth)
-        for demonstration, found in zip(demonstrations, noise, strict=True)
-    ]
-    if len(alone) == 1:
-        model, checks = alone[0], reproduction_checks(reproduction(alone[0], demonstrations[0]), noise[0])
+    found = tuple(evidence(demonstration, smooth=smooth) for demonstration in demonstrations)
+    if len(kept) == 1:
+        model = learn(demonstrations[0], basis_count, smooth=smooth)
+        checks = reproduction_checks(model, found[0])
     else:
-        model, checks = PoseDmp.fit(list(demonstrations), _options_of(alone)), ()
-    return Lesson(kept, demonstrations, model, assess(model, list(demonstrations)), noise, tuple(checks))
-
-
-def _options_of(models: Sequence[PoseDmp]) -> DmpOptions:
-    """Return the options with which motions are learned together that were learned alone: those of the most kernels,
-    and smoothed if any of them had to be.
-    """
-    options = max(models, key=lambda model: model.options.basis_count).options
-    if any(model.options.derivatives == Derivatives.smooth for model in models):
-        options.derivatives = Derivatives.smooth
-    return options
+        model = PoseDmp.fit(
+            list(demonstrations), basis_count=basis_count or 0, derivatives="automatic" if smooth else "interpolate"
+        )
+        checks = takes_apart(demonstrations, [recording.source for recording in kept], model.options)
+    report = assess(model, list(demonstrations))
+    return Lesson(kept, demonstrations, model, report, tuple(each.noise for each in found), checks, found)

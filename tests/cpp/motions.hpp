@@ -55,6 +55,15 @@ inline PoseDemonstration pose(int count, double duration, double turns = 2) {
   return {p.time(), poses};
 }
 
+/// Locally weighted regression with 100 kernels on the samples as they are: nothing is chosen by the data.
+inline DmpOptions stated() {
+  DmpOptions options;
+  options.basis_count = 100;
+  options.regression = Regression::lwr;
+  options.derivatives = Derivatives::interpolate;
+  return options;
+}
+
 /// Every axis ends elsewhere than it starts, as every scaling needs it.
 inline PoseDemonstration pose_with_goal_apart(int count, double duration) {
   return pose(count, duration, 1.3);

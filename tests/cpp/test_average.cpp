@@ -12,8 +12,8 @@ TEST_CASE("averaging models is learning the demonstrations together, where scale
   RowMatrix other = a.position();
   for (Eigen::Index k = 0; k < other.rows(); ++k) other(k, 0) += .02 * std::sin(3 * a.time()[k]);
   const Demonstration b(a.time(), other);
-  const Dmp mean = average(std::vector<Dmp>{Dmp::fit(a), Dmp::fit(b)});
-  const Dmp joint = Dmp::fit(std::vector<Demonstration>{a, b});
+  const Dmp mean = average(std::vector<Dmp>{Dmp::fit(a, stated()), Dmp::fit(b, stated())});
+  const Dmp joint = Dmp::fit(std::vector<Demonstration>{a, b}, stated());
   CHECK((mean.parameters().weights - joint.parameters().weights).norm() <
         1e-9 * joint.parameters().weights.norm());
   CHECK(largest(mean.rollout({}, {}, .01).position, joint.rollout({}, {}, .01).position) < 1e-12);
@@ -43,7 +43,7 @@ TEST_CASE(
     "orientations and poses that are not alike are refused with the option that differs, or none at all") {
   const PoseDemonstration demonstration = pose(100, 1.0);
   DmpOptions other;
-  other.regression = Regression::ridge;
+  other.regression = Regression::lwr;
   const auto turn = [&](const DmpOptions& options) {
     return OrientationDmp::fit(demonstration.orientation(), options);
   };

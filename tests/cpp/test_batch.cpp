@@ -193,7 +193,7 @@ TEST_CASE("a bad one among many orientations or poses is named, whichever way th
   turns[1][5] *= 2.0;
   CHECK(message_of([&] { fit_each(grid(), turns); }).rfind("demonstrations[1]: rotations[5]", 0) == 0);
   DmpOptions options;
-  options.basis_count = 0;
+  options.basis_count = -1;
   const std::vector<OrientationDemonstration> good{{grid(), Rotations(300, Eigen::Matrix3d::Identity())}};
   CHECK(message_of([&] { fit_each(good, options); }).rfind("demonstrations[0]: options.basis_count", 0) == 0);
   const std::vector<PoseDemonstration> both{{grid(), poses(0)}};

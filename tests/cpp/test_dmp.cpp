@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 #include <dmp/error.hpp>
+#include <random>
 
 #include "motions.hpp"
 #include "run_values.hpp"
@@ -65,19 +66,62 @@ TEST_CASE("a rollout has floor(duration / dt + 1e-6) + 1 samples from 0 on") {
   CHECK(dmp.rollout({}, {}, .3).time[3] == doctest::Approx(.9));
 }
 
-TEST_CASE("the default reproduces the helix and the reach; ridge regression a hundred times closer") {
+TEST_CASE("100 kernels reproduce the helix and the reach; ridge regression a hundred times closer") {
   const Demonstration turning = helix(1000, 4.995, .1, .2, 999 * .05 / (2 * M_PI));
   const Demonstration reaching = reach(1000, 4.995);
-  DmpOptions ridge;
+  DmpOptions ridge = stated();
   ridge.regression = Regression::ridge;
   const auto error = [](const Demonstration& demonstration, const DmpOptions& options) {
     return rmse(Dmp::fit(demonstration, options).rollout_at(demonstration.time()).position,
                 demonstration.position());
   };
-  CHECK(error(turning, {}) < .06e-3);
-  CHECK(error(reaching, {}) < .0015e-3);
+  CHECK(error(turning, stated()) < .06e-3);
+  CHECK(error(reaching, stated()) < .0015e-3);
   CHECK(error(turning, ridge) < .001e-3);
   CHECK(error(reaching, ridge) < 1e-8);
+}
+
+TEST_CASE("the default is nowhere less exact than 100 kernels of locally weighted regression, and takes few") {
+  const Demonstration turning = helix(1000, 4.995, .1, .2, 999 * .05 / (2 * M_PI));
+  const Demonstration reaching = reach(1000, 4.995);
+  for (const Demonstration& demonstration : {turning, reaching}) {
+    const auto error = [&](const Dmp& dmp) {
+      return rmse(dmp.rollout_at(demonstration.time()).position, demonstration.position());
+    };
+    CHECK(error(Dmp::fit(demonstration)) < error(Dmp::fit(demonstration, stated())));
+  }
+  CHECK(Dmp::fit(reaching).options().basis_count == 25);
+  CHECK(Dmp::fit(turning).options().basis_count > 50);
+  const DmpOptions used = Dmp::fit(reaching).options();
+  CHECK(used.regression == Regression::ridge);
+  CHECK(used.derivatives == Derivatives::interpolate);
+  CHECK_FALSE(used.automatic());
+}
+
+TEST_CASE("a stated number of passes is locally weighted regression; a model of weights leaves nothing open") {
+  DmpOptions textbook;
+  textbook.passes = 1;
+  CHECK(Dmp::fit(reach(100, 1.0), textbook).options().regression == Regression::lwr);
+  CHECK_FALSE(DmpOptions::source().automatic());
+  CHECK(DmpOptions().automatic());
+  DmpParameters parameters = Dmp::fit(reach(100, 1.0)).parameters();
+  parameters.options = {};
+  CHECK(Dmp(parameters).options().basis_count == static_cast<int>(parameters.weights.rows()));
+  CHECK_FALSE(Dmp(parameters).options().automatic());
+}
+
+TEST_CASE("noise is not learned: the default comes as close to the truth as the best smoothing") {
+  const Demonstration truth = reach(800, 4.0);
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 1e-3);
+    RowMatrix y = truth.position();
+    for (Eigen::Index k = 0; k < y.size(); ++k) y.data()[k] += noise(random);
+    const Dmp learned = Dmp::fit(Demonstration(truth.time(), y));
+    CHECK(learned.options().derivatives == Derivatives::smooth);
+    CHECK(learned.options().basis_count <= 50);
+    CHECK(rmse(learned.rollout_at(truth.time()).position, truth.position()) < .4e-3);
+  }
 }
 
 TEST_CASE("the source's equations make the source's errors, the default a thousandth of them") {
@@ -387,7 +431,7 @@ TEST_CASE("options and arguments outside their ranges are refused with their nam
     change(options);
     CHECK_THROWS_WITH_AS(Dmp::fit(demonstration, options), doctest::Contains(name), InvalidArgument);
   };
-  refused([](DmpOptions& o) { o.basis_count = 0; }, "options.basis_count");
+  refused([](DmpOptions& o) { o.basis_count = -1; }, "options.basis_count");
   refused([](DmpOptions& o) { o.alpha = -1; }, "options.alpha");
   refused([](DmpOptions& o) { o.beta = NAN; }, "options.beta");
   refused([](DmpOptions& o) { o.passes = 0; }, "options.passes");

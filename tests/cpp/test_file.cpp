@@ -90,7 +90,7 @@ TEST_CASE("what can not be moved into place leaves nothing behind") {
 }
 
 TEST_CASE("what is no model of this version is refused with the place") {
-  const std::string text = to_json(Dmp::fit(reach(100, 1.0)));
+  const std::string text = to_json(Dmp::fit(reach(100, 1.0), stated()));
   const auto refused = [](const std::string& bad, const char* reason) {
     CHECK_THROWS_WITH_AS(from_json(bad), doctest::Contains(reason), InvalidArgument);
   };
@@ -201,7 +201,7 @@ TEST_CASE("a value of the wrong kind is refused by its name, in every field of e
 
 TEST_CASE("numbers out of range or of another count are refused by their name") {
   const std::string turn = to_json(OrientationDmp::fit(rotation(30, 1.0, 1.0)));
-  const std::string both = to_json(PoseDmp::fit(pose(60, 1.0)));
+  const std::string both = to_json(PoseDmp::fit(pose(60, 1.0), stated()));
   const auto refused = [](const std::string& bad, const char* reason) {
     CHECK_THROWS_WITH_AS(from_json(bad), doctest::Contains(reason), InvalidArgument);
   };

@@ -102,7 +102,7 @@ TEST_CASE("the condition tells how the kernels overlap") {
   const Demonstration demonstration = reach(300, 1.0);
   DmpOptions ridge;
   ridge.regression = Regression::ridge;
-  const double local = assess(Dmp::fit(demonstration), {demonstration}).condition;
+  const double local = assess(Dmp::fit(demonstration, stated()), {demonstration}).condition;
   const double global = assess(Dmp::fit(demonstration, ridge), {demonstration}).condition;
   CHECK(local > 1.0);
   CHECK(local < 1e3);
@@ -143,10 +143,10 @@ TEST_CASE("nothing to hold a model against is refused") {
 
 TEST_CASE("a report of poses is that of its positions beside that of its orientations") {
   const PoseDemonstration demonstration = pose(300, 2.0);
-  const FitReport both = assess(PoseDmp::fit(demonstration), {demonstration});
-  const FitReport position = assess(Dmp::fit(demonstration.position()), {demonstration.position()});
+  const FitReport both = assess(PoseDmp::fit(demonstration, stated()), {demonstration});
+  const FitReport position = assess(Dmp::fit(demonstration.position(), stated()), {demonstration.position()});
   const FitReport orientation =
-      assess(OrientationDmp::fit(demonstration.orientation()), {demonstration.orientation()});
+      assess(OrientationDmp::fit(demonstration.orientation(), stated()), {demonstration.orientation()});
   REQUIRE(both.rmse.size() == 6);
   CHECK((both.rmse.head(3) - position.rmse).norm() < 1e-12);
   CHECK((both.rmse.tail(3) - orientation.rmse).norm() < 1e-12);
@@ -236,6 +236,7 @@ TEST_CASE("each thing that spoils a model of orientations or poses is a warning 
   DmpOptions many;
   many.basis_count = 1000;
   many.regression = Regression::ridge;
+  many.derivatives = Derivatives::interpolate;
   CHECK(warned(assess(Dmp::fit(noisy, many), {noisy}), "noise"));
 }
 

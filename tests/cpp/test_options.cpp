@@ -71,7 +71,9 @@ TEST_CASE("resolved options state every optional field, and resolving them again
   CHECK(resolved.beta == 10.0);
   CHECK(resolved.orientation_alpha == 20.0);
   CHECK(resolved.orientation_beta == 5.0);
-  CHECK(resolved.overlap == std::log(2.0));
+  CHECK(resolved.overlap == 0.2);
+  options.regression = Regression::lwr;
+  CHECK(options.resolved().overlap == std::log(2.0));
   CHECK(resolved.resolved() == resolved);
   CHECK(resolved != options);
 }
@@ -80,8 +82,8 @@ TEST_CASE("validate names the field that is out of range") {
   CHECK(refusal_of({}) == "");
   CHECK(refusal_of(DmpOptions::source()) == "");
   DmpOptions options;
-  options.basis_count = 0;
-  CHECK(refusal_of(options) == "options.basis_count: 0, expected 1 to 100000 kernels.");
+  options.basis_count = -1;
+  CHECK(refusal_of(options) == "options.basis_count: -1, expected 1 to 100000 kernels.");
   options = {};
   options.passes = 10001;
   CHECK(refusal_of(options) == "options.passes: 10001, expected 1 to 10000.");

@@ -41,9 +41,9 @@ TEST_CASE("about a fixed axis the spring alone follows its closed form, in both 
 }
 
 TEST_CASE("the Euler path is reproduced through pi, with few kernels too") {
-  DmpOptions ridge;
+  DmpOptions ridge = stated();
   ridge.regression = Regression::ridge;
-  CHECK(reproduction(rotation(1000, 4.995, 3.0), {}).rmse < .0005 * kDegree);
+  CHECK(reproduction(rotation(1000, 4.995, 3.0), stated()).rmse < .0005 * kDegree);
   CHECK(reproduction(rotation(1000, 4.995, 3.0), ridge).rmse < 1e-5 * kDegree);
   CHECK(reproduction(rotation(1000, 4.995, 4.995), {}).rmse < .001 * kDegree);
   DmpOptions fifty;

@@ -20,10 +20,10 @@ Rotations rotations_of(const Poses& poses) {
 TEST_CASE("a pose is its position and its orientation learned apart, in one phase") {
   const PoseDemonstration demonstration = pose(500, 2.0);
   for (const double dt : {.05, .005, .001}) {
-    const PoseTrajectory both = PoseDmp::fit(demonstration).rollout({}, {}, dt);
-    const Trajectory position = Dmp::fit(demonstration.position()).rollout({}, {}, dt);
+    const PoseTrajectory both = PoseDmp::fit(demonstration, stated()).rollout({}, {}, dt);
+    const Trajectory position = Dmp::fit(demonstration.position(), stated()).rollout({}, {}, dt);
     const OrientationTrajectory orientation =
-        OrientationDmp::fit(demonstration.orientation()).rollout({}, {}, dt);
+        OrientationDmp::fit(demonstration.orientation(), stated()).rollout({}, {}, dt);
     for (Eigen::Index k = 0; k < both.time.size(); ++k) {
       const Eigen::Vector3d p = both.pose[k].topRightCorner<3, 1>();
       CHECK((p - position.position.row(k).transpose()).norm() < 1e-12);

@@ -10,8 +10,9 @@ namespace dmp {
 enum class Kernels { equal_in_time, source };
 
 /// How the weights are found. Locally weighted regression (Schaal and Atkeson 1998; Ijspeert et al. 2013)
-/// with passes over what it left over, or one ridge regression over all kernels.
-enum class Regression { lwr, ridge };
+/// with passes over what it left over, or one ridge regression over all kernels, which comes closest.
+/// automatic: ridge; lwr where `passes` is stated, the kernels are the source's or there are more than 4000.
+enum class Regression { lwr, ridge, automatic };
 
 /// By what the forcing term is multiplied when start and goal change.
 enum class Scaling {
@@ -32,16 +33,21 @@ enum class Start { demonstrated, rest };
 /// exact: the linear part exactly, the forcing term by its parabola over the step; fourth order on SO(3).
 enum class Integrator { exact, semi_implicit_euler };
 
-/// Velocities and accelerations of a demonstration: of its quintic spline, or second-order differences taken
-/// twice.
-enum class Derivatives { interpolate, smooth, gradient };
+/// Velocities and accelerations of a demonstration: of the quintic spline through its samples, of the one
+/// that smooths them, or second-order differences taken twice. automatic: interpolate, or without its noise
+/// where the samples show that they carry any (NoiseEstimate).
+enum class Derivatives { interpolate, smooth, gradient, automatic };
 
 /// Log(Rg R^T): followed through pi and 2 pi, or the shortest rotation at every moment.
 enum class LogBranch { lifted, principal };
 
-/// Every choice there is in a Dmp, OrientationDmp or PoseDmp. The defaults reproduce; change one to compare.
+/// Every choice there is in a Dmp, OrientationDmp or PoseDmp. What is automatic, `fit` finds in the
+/// demonstrations, and the options of the model say what it was.
 struct DmpOptions {
-  int basis_count = 100;                    ///< N, kernels
+  /// N, kernels. 0: the fewest of 25, 50, 100, .. 800 that reproduce the demonstrations as closely as their
+  /// samples allow: to a quarter of the error that smoothing leaves, or to .4 of what the neighbours of a
+  /// sample leave open of it, between 1e-6 and 3e-4 of the extent.
+  int basis_count = 0;
   double alpha = 25.0;                      ///< spring and damper: tau zd = alpha (beta (g - y) - z) + f
   std::optional<double> beta;               ///< alpha / 4 unless given: critically damped
   std::optional<double> orientation_alpha;  ///< alpha unless given
@@ -49,13 +55,13 @@ struct DmpOptions {
   double alpha_x = 4.605170185988091;      ///< decay of the phase variable; ln 100: x = 0.01 at the end
   Kernels kernels = Kernels::equal_in_time;
   std::optional<double> overlap;  ///< neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)
-  Regression regression = Regression::lwr;
+  Regression regression = Regression::automatic;
   int passes = 10;       ///< of locally weighted regression; 1 is the textbook's
   double ridge = 1e-12;  ///< times trace / N on the diagonal
   Scaling scaling = Scaling::none;
   OrientationForm orientation_form = OrientationForm::automatic;
   LogBranch log_branch = LogBranch::lifted;
-  Derivatives derivatives = Derivatives::interpolate;
+  Derivatives derivatives = Derivatives::automatic;
   Start start = Start::demonstrated;
   Integrator integrator = Integrator::exact;
   bool force_after_end = false;  ///< the forcing term goes on after the duration
@@ -66,6 +72,8 @@ struct DmpOptions {
 
   /// Throws InvalidArgument, naming the field, for one outside its range.
   DMP_EXPORT void validate() const;
+  /// Whether kernels, regression or derivatives are left to the demonstrations.
+  DMP_EXPORT bool automatic() const noexcept;
   /// The same options with every optional one filled in; validates them.
   DMP_EXPORT DmpOptions resolved() const;
 

@@ -17,7 +17,9 @@ constexpr std::size_t kMostObjects = 100;  // after each the parser looks throug
 constexpr int kDeepest = 8;
 
 const Names<Kernels> kKernels{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
-const Names<Regression> kRegression{{Regression::lwr, "lwr"}, {Regression::ridge, "ridge"}};
+const Names<Regression> kRegression{{Regression::lwr, "lwr"},
+                                    {Regression::ridge, "ridge"},
+                                    {Regression::automatic, "automatic"}};
 const Names<Scaling> kScaling{{Scaling::none, "none"},
                               {Scaling::per_axis, "per_axis"},
                               {Scaling::per_axis_relative, "per_axis_relative"},
@@ -28,7 +30,8 @@ const Names<OrientationForm> kForm{{OrientationForm::automatic, "automatic"},
 const Names<LogBranch> kBranch{{LogBranch::lifted, "lifted"}, {LogBranch::principal, "principal"}};
 const Names<Derivatives> kDerivatives{{Derivatives::interpolate, "interpolate"},
                                       {Derivatives::smooth, "smooth"},
-                                      {Derivatives::gradient, "gradient"}};
+                                      {Derivatives::gradient, "gradient"},
+                                      {Derivatives::automatic, "automatic"}};
 const Names<Start> kStart{{Start::demonstrated, "demonstrated"}, {Start::rest, "rest"}};
 const Names<Integrator> kIntegrator{{Integrator::exact, "exact"},
                                     {Integrator::semi_implicit_euler, "semi_implicit_euler"}};
@@ -99,6 +102,8 @@ template <class Parameters>
 Parameters read(const Json& json) {
   Parameters parameters;
   visit_options(JsonReader(member(json, "options", "model"), "options", "options."), parameters.options);
+  if (parameters.options.basis_count == 0)
+    throw InvalidArgument("options.basis_count: 0, expected the number of kernels.");
   visit_parameters(JsonReader(json, "model", ""), parameters);
   return parameters;
 }

@@ -96,6 +96,16 @@ Rotations rotations_along(const RowMatrix& table) {
   return rotations;
 }
 
+/// Whether a sample repeats the one before.
+auto repeats_in(const RowMatrix& table) {
+  return [&table](Index k) { return table.row(k) == table.row(k - 1); };
+}
+auto repeats_in(const Rotations& rotations) {
+  return [&rotations](Index k) {
+    return rotations[static_cast<std::size_t>(k)] == rotations[static_cast<std::size_t>(k - 1)];
+  };
+}
+
 /// A turn by v changes a quaternion by v / 2.
 void as_turns(NoiseEstimate& found) {
   for (double* const value : {&found.sigma, &found.removed, &found.unpredicted}) *value *= 2.0;
@@ -178,7 +188,7 @@ Demonstration::Demonstration(Eigen::VectorXd time, RowMatrix position, Spline sp
     : time_(std::move(time)), position_(std::move(position)), spline_(std::move(spline)) {}
 
 Demonstration Demonstration::denoised(NoiseEstimate* report) const {
-  detail::LazyGrid grid(time_, detail::measured_weights(measured_, position_));
+  detail::LazyGrid grid(time_, detail::measured_weights(measured_, size(), repeats_in(position_)));
   return denoised(grid, report);
 }
 
@@ -227,7 +237,7 @@ OrientationDemonstration OrientationDemonstration::with(const Rotations& rotatio
 }
 
 OrientationDemonstration OrientationDemonstration::denoised(NoiseEstimate* report) const {
-  detail::LazyGrid grid(time_, detail::measured_weights(measured_, continuous_quaternions(rotation_)));
+  detail::LazyGrid grid(time_, detail::measured_weights(measured_, size(), repeats_in(rotation_)));
   return denoised(grid, report);
 }
 
@@ -334,8 +344,11 @@ PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* or
 }
 
 PoseDemonstration PoseDemonstration::denoised(NoiseEstimate* position, NoiseEstimate* orientation) const {
-  const RowMatrix turns = continuous_quaternions(orientation_.rotation_);
-  detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, position_.position_, &turns));
+  const auto moved = repeats_in(position_.position_);
+  const auto turned = repeats_in(orientation_.rotation_);
+  detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, size(), [&](Index k) {
+                          return moved(k) && turned(k);
+                        }));
   return {position_.denoised(grid, position), orientation_.denoised(grid, orientation)};
 }
 

@@ -1,6 +1,7 @@
 #include <dmp/dmp.hpp>
 #include <dmp/error.hpp>
 
+#include "primitive/automatic_fit.hpp"
 #include "primitive/forcing_fit.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/parameters.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 DmpParameters checked(const DmpParameters& given) {
   DmpParameters parameters = given;
-  parameters.options = given.options.resolved();
+  parameters.options = detail::settled(given.options, given.weights);
   const Index dimension = given.start.size();
   if (dimension == 0) throw InvalidArgument("start: empty, expected at least one dimension.");
   detail::require_duration(given.duration);
@@ -36,7 +37,7 @@ DmpParameters checked(const DmpParameters& given) {
   detail::require_finite(given.goal, dimension, "goal");
   detail::require_finite(given.start_velocity, dimension, "start_velocity");
   detail::require_finite(given.amplitude, dimension, "amplitude");
-  detail::require_weights(given.weights, given.options.basis_count, dimension);
+  detail::require_weights(given.weights, parameters.options.basis_count, dimension);
   return parameters;
 }
 
@@ -73,6 +74,14 @@ Dmp Dmp::fit(const std::vector<Demonstration>& demonstrations, const DmpOptions&
 Dmp Dmp::fit_together(const Demonstration* demonstrations, std::size_t count, const DmpOptions& options,
                       std::unique_ptr<detail::ForcingFit>& memory) {
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
+  if (options.automatic()) {
+    options.validate();
+    return detail::fit_automatically<Dmp>(demonstrations, count, options,
+                                         [](const Demonstration* one, std::size_t number, const DmpOptions& stated) {
+                                           std::unique_ptr<detail::ForcingFit> none;
+                                           return fit_together(one, number, stated, none);
+                                         });
+  }
   const DmpOptions resolved = options.resolved();
   std::vector<detail::PositionLesson> lessons;
   for (std::size_t j = 0; j < count; ++j) {

@@ -82,25 +82,29 @@ RowMatrix deviation(const PoseDmp& dmp, const PoseDemonstration& demonstration) 
   return away;
 }
 
-Smoothing smoothing_of(const Demonstration& demonstration) {
-  Smoothing found;
-  demonstration.smoothed(&found);
-  return found;
+/// The noise of each part of a demonstration, and how many columns it stands for.
+using Found = std::vector<std::pair<NoiseEstimate, Index>>;
+
+template <class One>
+Found noise_of(const One& demonstration, Index columns) {
+  NoiseEstimate found;
+  demonstration.denoised(&found);
+  return {{found, columns}};
+}
+Found noise_of(const Demonstration& demonstration) { return noise_of(demonstration, demonstration.dimension()); }
+Found noise_of(const OrientationDemonstration& demonstration) { return noise_of(demonstration, 3); }
+Found noise_of(const PoseDemonstration& demonstration) {
+  NoiseEstimate position, orientation;
+  demonstration.denoised(&position, &orientation);
+  return {{position, 3}, {orientation, 3}};
 }
 
-Smoothing smoothing_of(const OrientationDemonstration& demonstration) {
-  Smoothing found;
-  demonstration.smoothed(&found);
-  return {VectorXd::Constant(3, found.noise[0]), VectorXd::Constant(3, found.removed[0])};
-}
-
-Smoothing smoothing_of(const PoseDemonstration& demonstration) {
-  const Smoothing position = smoothing_of(demonstration.position());
-  const Smoothing orientation = smoothing_of(demonstration.orientation());
-  Smoothing both{VectorXd(6), VectorXd(6)};
-  both.noise << position.noise, orientation.noise;
-  both.removed << position.removed, orientation.removed;
-  return both;
+/// A number of each part, once for each of its columns.
+template <class Value>
+VectorXd by_column(const Found& found, Value value) {
+  std::vector<double> numbers;
+  for (const auto& [noise, columns] : found) numbers.insert(numbers.end(), static_cast<std::size_t>(columns), value(noise, columns));
+  return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
 }
 
 double largest_log_of(const Demonstration&, const DmpOptions&) { return 0.0; }
@@ -154,8 +158,9 @@ VectorXd rmse_of(const Model& model, const Demonstrations& demonstrations, Vecto
 
 template <class Model, class Demonstrations>
 int suggested(const Model& model, const Demonstrations& demonstrations, const Tolerance& tolerance) {
+  DmpOptions options = model.options();
+  options.derivatives = options.derivatives == Derivatives::smooth ? Derivatives::automatic : options.derivatives;
   for (int count = kFewestKernels; count <= kMostKernels; count *= 2) {
-    DmpOptions options = model.options();
     options.basis_count = count;
     const Model tried = Model::fit(demonstrations, options);
     if (excess(tried, rmse_of(tried, demonstrations), tolerance) <= 1.0) return count;
@@ -192,10 +197,10 @@ void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOpti
     report.warnings.push_back(
         "largest_log: " + number(report.largest_log) +
         " rad comes near 2 pi, where the logarithm is singular across the axis. Split the demonstration.");
-  if (report.condition > 1e12)
+  if (report.condition > 5e13)
     report.warnings.push_back("condition: " + number(report.condition) +
                               " leaves few digits. Use fewer kernels, a larger overlap or a larger ridge.");
-  if (options.derivatives != Derivatives::smooth && report.noise.maxCoeff() > 3.0 * report.rmse.maxCoeff())
+  if (options.derivatives != Derivatives::smooth && report.noise.maxCoeff() > 0.0)
     report.warnings.push_back("noise: " + number(report.noise.maxCoeff()) +
                               " was found and learned with the motion. Derivatives::smooth takes it out.");
 }
@@ -216,10 +221,15 @@ FitReport assessed(const Model& model, const Demonstrations& demonstrations, con
   report.noise = VectorXd::Zero(report.rmse.size());
   report.removed = report.noise;
   for (const auto& demonstration : demonstrations) {
-    const Smoothing found = smoothing_of(demonstration);
-    report.noise += found.noise / static_cast<double>(demonstrations.size());
+    const Found found = noise_of(demonstration);
+    const double share = 1.0 / static_cast<double>(demonstrations.size());
+    report.noise += share * by_column(found, [](const NoiseEstimate& n, Index) { return n.sigma; });
     if (model.options().derivatives == Derivatives::smooth)
-      report.removed += found.removed / static_cast<double>(demonstrations.size());
+      report.removed += share * by_column(found, [](const NoiseEstimate& n, Index columns) {
+                          return n.removed / std::sqrt(static_cast<double>(columns));
+                        });
+    report.evidence.emplace_back();
+    for (const auto& part : found) report.evidence.back().push_back(part.first);
     report.largest_log = std::max(report.largest_log, largest_log_of(demonstration, model.options()));
   }
   report.condition = regression_condition(model.options());

@@ -145,7 +145,7 @@ double regression_condition(const DmpOptions& options) {
   // Eigenvalues cost the cube of the kernels, and more of them with the same overlap change nothing.
   constexpr int kEnough = 300;
   DmpOptions looked_at = options;
-  looked_at.basis_count = std::min(options.basis_count, kEnough);
+  looked_at.basis_count = std::min(options.basis_count > 0 ? options.basis_count : kEnough, kEnough);
   const GaussianBasis basis = detail::basis_of(looked_at);
   const Index samples = 10 * basis.count() + 1;
   const ForcingTarget even{VectorXd::LinSpaced(samples, 0.0, 1.0), RowMatrix::Zero(samples, 1),

@@ -40,11 +40,11 @@ void require_enumerator(Enum value, Enum last, const char* name) {
 
 void require_enumerators(const DmpOptions& o) {
   require_enumerator(o.kernels, Kernels::source, "kernels");
-  require_enumerator(o.regression, Regression::ridge, "regression");
+  require_enumerator(o.regression, Regression::automatic, "regression");
   require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
   require_enumerator(o.orientation_form, OrientationForm::log_linear, "orientation_form");
   require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
-  require_enumerator(o.derivatives, Derivatives::gradient, "derivatives");
+  require_enumerator(o.derivatives, Derivatives::automatic, "derivatives");
   require_enumerator(o.start, Start::rest, "start");
   require_enumerator(o.integrator, Integrator::semi_implicit_euler, "integrator");
 }
@@ -69,10 +69,14 @@ bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept { return fiel
 
 void DmpOptions::validate() const { resolved(); }
 
+bool DmpOptions::automatic() const noexcept {
+  return basis_count == 0 || regression == Regression::automatic || derivatives == Derivatives::automatic;
+}
+
 DmpOptions DmpOptions::resolved() const {
   DmpOptions result = *this;
   require_enumerators(*this);
-  require_whole(basis_count, 100000, "basis_count", " kernels");
+  if (basis_count != 0) require_whole(basis_count, 100000, "basis_count", " kernels");
   require_whole(passes, 10000, "passes", "");
   result.beta = beta.value_or(alpha / 4.0);
   result.orientation_alpha = orientation_alpha.value_or(alpha);
@@ -106,6 +110,7 @@ DmpOptions DmpOptions::source() {
   options.orientation_beta = 4.0;
   options.alpha_x = 1.0;
   options.kernels = Kernels::source;
+  options.regression = Regression::lwr;
   options.passes = 1;
   options.scaling = Scaling::per_axis;
   options.orientation_form = OrientationForm::ude;

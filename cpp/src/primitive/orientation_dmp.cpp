@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "primitive/automatic_fit.hpp"
 #include "primitive/forcing_fit.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/orientation_motion.hpp"
@@ -32,7 +33,7 @@ namespace {
 
 OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   OrientationDmpParameters parameters = given;
-  parameters.options = given.options.resolved();
+  parameters.options = detail::settled(given.options, given.weights);
   detail::require_duration(given.duration);
   so3::require_rotation(given.start, "start");
   so3::require_rotation(given.goal, "goal");
@@ -41,7 +42,7 @@ OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   detail::require_finite(given.start_velocity, 3, "start_velocity");
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 3, "amplitude");
-  detail::require_weights(given.weights, given.options.basis_count, 3);
+  detail::require_weights(given.weights, parameters.options.basis_count, 3);
   parameters.options.orientation_form = detail::form_for(parameters.options, given.start_error.norm());
   return parameters;
 }
@@ -88,6 +89,14 @@ OrientationDmp OrientationDmp::fit_together(const OrientationDemonstration* demo
                                             const DmpOptions& options,
                                             std::unique_ptr<detail::ForcingFit>& memory) {
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
+  if (options.automatic()) {
+    options.validate();
+    return detail::fit_automatically<OrientationDmp>(demonstrations, count, options,
+                                         [](const OrientationDemonstration* one, std::size_t number, const DmpOptions& stated) {
+                                           std::unique_ptr<detail::ForcingFit> none;
+                                           return fit_together(one, number, stated, none);
+                                         });
+  }
   DmpOptions resolved = options.resolved();
   resolved.orientation_form = detail::form_for(resolved, demonstrations[0]);
   std::vector<detail::OrientationLesson> lessons;

@@ -2,6 +2,7 @@
 #include <dmp/pose_dmp.hpp>
 #include <dmp/so3.hpp>
 
+#include "primitive/automatic_fit.hpp"
 #include "primitive/forcing_fit.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/orientation_motion.hpp"
@@ -58,7 +59,7 @@ PoseMotion motion_of(const PoseDmpParameters& p) {
 
 PoseDmpParameters checked(const PoseDmpParameters& given) {
   PoseDmpParameters parameters = given;
-  parameters.options = given.options.resolved();
+  parameters.options = detail::settled(given.options, given.weights);
   detail::require_duration(given.duration);
   detail::require_pose(given.start, "start");
   detail::require_pose(given.goal, "goal");
@@ -67,7 +68,7 @@ PoseDmpParameters checked(const PoseDmpParameters& given) {
   detail::require_finite(given.start_twist, 6, "start_twist");
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 6, "amplitude");
-  detail::require_weights(given.weights, given.options.basis_count, 6);
+  detail::require_weights(given.weights, parameters.options.basis_count, 6);
   parameters.options.orientation_form = detail::form_for(parameters.options, given.start_error.norm());
   return parameters;
 }
@@ -146,6 +147,14 @@ PoseDmp PoseDmp::fit(const std::vector<PoseDemonstration>& demonstrations, const
 PoseDmp PoseDmp::fit_together(const PoseDemonstration* demonstrations, std::size_t count,
                               const DmpOptions& options, std::unique_ptr<detail::ForcingFit>& memory) {
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
+  if (options.automatic()) {
+    options.validate();
+    return detail::fit_automatically<PoseDmp>(demonstrations, count, options,
+                                         [](const PoseDemonstration* one, std::size_t number, const DmpOptions& stated) {
+                                           std::unique_ptr<detail::ForcingFit> none;
+                                           return fit_together(one, number, stated, none);
+                                         });
+  }
   DmpOptions resolved = options.resolved();
   resolved.orientation_form = detail::form_for(resolved, demonstrations[0].orientation());
   std::vector<PoseLesson> lessons;

@@ -52,6 +52,12 @@ std::array<double, 7> sixth_difference(const double* t) {
   return weights;
 }
 
+bool evenly_spaced(const VectorXd& times) {
+  const Index n = times.size();
+  const double step = (times[n - 1] - times[0]) / static_cast<double>(n - 1);
+  return ((times.tail(n - 1) - times.head(n - 1)).array() - step).abs().maxCoeff() < 1e-6 * step;
+}
+
 /// RMS of the sixth differences over measured samples: the deviation of noise with nothing else in it, an
 /// upper bound of it otherwise; and by how much the sample in the middle differs from the prediction.
 struct Unpredicted {
@@ -61,9 +67,11 @@ struct Unpredicted {
 Unpredicted unpredicted(const VectorXd& times, const VectorXd& weights, const RowMatrix& values) {
   Unpredicted sum;
   double count = 0.0;
+  const bool even = evenly_spaced(times);
+  std::array<double, 7> w = sixth_difference(times.data());
   for (Index k = 0; k + 7 <= times.size(); ++k) {
     if (weights.segment<7>(k).sum() < 7.0) continue;
-    const std::array<double, 7> w = sixth_difference(times.data() + k);
+    if (!even) w = sixth_difference(times.data() + k);
     double squares = 0.0;
     for (Index c = 0; c < values.cols(); ++c) {
       double difference = 0.0;
@@ -262,14 +270,12 @@ class Decision {
 
 }  // namespace
 
-VectorXd measured_weights(const VectorXd& measured, const RowMatrix& first, const RowMatrix* second) {
-  const Index n = first.rows();
-  VectorXd weights = measured.size() == n ? measured : VectorXd(VectorXd::Ones(n));
+VectorXd measured_weights(const VectorXd& measured, Index count, const std::function<bool(Index)>& repeats) {
+  VectorXd weights = measured.size() == count ? measured : VectorXd(VectorXd::Ones(count));
   std::vector<Index> repeated;
-  for (Index k = 1; k < n; ++k)
-    if (first.row(k) == first.row(k - 1) && (!second || second->row(k) == second->row(k - 1)))
-      repeated.push_back(k);
-  if (static_cast<double>(repeated.size()) >= kUsualRepeats * static_cast<double>(n)) return weights;
+  for (Index k = 1; k < count; ++k)
+    if (repeats(k)) repeated.push_back(k);
+  if (static_cast<double>(repeated.size()) >= kUsualRepeats * static_cast<double>(count)) return weights;
   for (const Index k : repeated) weights[k] = 0.0;
   return weights;
 }

@@ -4,6 +4,7 @@
 #include <dmp/spline.hpp>
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 
 #include "spline/smoothing_fit.hpp"
@@ -11,9 +12,9 @@
 namespace dmp::detail {
 
 /// 1 for samples that were measured, 0 for those that were not (`measured`, all if empty) or that repeat the
-/// one before in all of the tables, unless that is usual: a recording system that had nothing new.
-Eigen::VectorXd measured_weights(const Eigen::VectorXd& measured, const RowMatrix& first,
-                                 const RowMatrix* second = nullptr);
+/// one before, unless that is usual: a recording system that had nothing new.
+Eigen::VectorXd measured_weights(const Eigen::VectorXd& measured, Eigen::Index count,
+                                 const std::function<bool(Eigen::Index)>& repeats);
 
 /// The smoothing grid of a demonstration, made when it is needed.
 class LazyGrid {

@@ -91,7 +91,8 @@ Spline Spline::smoothing(const Eigen::VectorXd& times, const RowMatrix& values, 
   if (report) *report = {Eigen::VectorXd::Zero(values.cols()), Eigen::VectorXd::Zero(values.cols())};
   if (times.size() < 10) return {times, values};
   require(times, values);
-  const Eigen::VectorXd weights = detail::measured_weights({}, values);
+  const Eigen::VectorXd weights = detail::measured_weights(
+      {}, values.rows(), [&](Index k) { return values.row(k) == values.row(k - 1); });
   detail::SmoothingGrid grid(times, weights);
   detail::SmoothingFit fit(grid, values);
   const detail::SmoothingFit::Point best = fit.best();

@@ -36,6 +36,13 @@ if TYPE_CHECKING:
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the search for a placement.")
 @click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed.")
 @click.option(
+    "--leave-out",
+    multiple=True,
+    type=click.IntRange(1),
+    metavar="N",
+    help="Learn without the N-th FILE, counted from 1.",
+)
+@click.option(
     "--out",
     default="model.json",
     show_default=True,
@@ -51,6 +58,7 @@ def fit(
     scale: str | None,
     seed: int,
     basis_count: int | None,
+    leave_out: tuple[int, ...],
     out: Path,
     as_json: bool,
     **options: Any,
@@ -69,24 +77,36 @@ def fit(
     refuse_file(out.parent)
     preparation, smooth = taken_preparation(options)
     stated = taken_recording(options)
+    files = _without(files, leave_out)
     found = [motion.prepare(recordings.load(file, **stated), preparation) for file in files]
     if arm is not None:
         found = planning.placed(found, arms.load(arm, base, tip), scale=scale_range(scale), seed=seed)
     elif base or tip or scale:
         raise InvalidArgument("--base, --tip, --scale: without --arm they say nothing. State --arm too.")
     lesson = teach(found, basis_count=basis_count, smooth=smooth)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    save(lesson.model, out)
-    save_config(out.with_name(f"{out.stem}.config.toml"))
+    written = lesson.ok or len(files) == 1  # takes that do not belong together make no model
+    if written:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        save(lesson.model, out)
+        save_config(out.with_name(f"{out.stem}.config.toml"))
     if as_json:
         click.echo(json.dumps(lesson.summary(), indent=2, allow_nan=False))
     else:
-        _print_lesson(lesson, out)
+        _print_lesson(lesson, out if written else None)
     if not lesson.ok:
         sys.exit(FAILED)
 
 
-def _print_lesson(lesson: Lesson, out: Path) -> None:
+def _without(files: tuple[Path, ...], leave_out: tuple[int, ...]) -> tuple[Path, ...]:
+    if leave_out and max(leave_out) > len(files):
+        raise InvalidArgument(f"--leave-out: {max(leave_out)}, expected 1 to {len(files)}.")
+    kept = tuple(file for k, file in enumerate(files, 1) if k not in leave_out)
+    if not kept:
+        raise InvalidArgument("--leave-out: leaves no file to learn from.")
+    return kept
+
+
+def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     from rich.console import Console
     from rich.table import Table
 
@@ -100,6 +120,8 @@ def _print_lesson(lesson: Lesson, out: Path) -> None:
         shown = (*(1e3 * values[:3]), *(math.degrees(value) for value in values[3:]))
         table.add_row(name, *(f"{value:.2g}" for value in shown))
     console.print(table)
+    for sentence in dict.fromkeys(each.sentence for each in lesson.evidence):
+        console.print(sentence, soft_wrap=True, markup=False)
     for warning in lesson.fit.warnings:
         console.print(warning, style="yellow", soft_wrap=True, markup=False)
     if lesson.checks:

@@ -15,10 +15,10 @@ from functools import partial
 from typing import Any
 
 from dmpcpp import metrics, motion, simulation
-from dmpcpp._core import Arm, Derivatives, JointTrajectory, PoseDmp, PoseTrajectory
+from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.learning import learn, reproduction, reproduction_checks
+from dmpcpp.learning import Evidence, evidence, learn, reproduction, reproduction_checks
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.planning import Engine, Placement, clear_of_itself, solve
@@ -59,8 +59,8 @@ class Imitation(Checked):
     stages : dict of str to StageErrors
         "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
     checks : tuple of Check
-    noise : Noise
-        What was found in the recording as it stands in the robot's base frame.
+    evidence : Evidence
+        What the recording shows of noise, as it stands in the robot's base frame, and whether it was taken out.
     second_log : ExecutionLog or None
         The same joints in the second engine, where both were asked for.
     """
@@ -74,8 +74,13 @@ class Imitation(Checked):
     log: ExecutionLog
     stages: dict[str, StageErrors]
     checks: tuple[Check, ...]
-    noise: Noise
+    evidence: Evidence
     second_log: ExecutionLog | None = None
+
+    @property
+    def noise(self) -> Noise:
+        """Standard deviation of the noise found along and about one axis; 0 where there is none."""
+        return self.evidence.noise
 
     def summary(self) -> dict[str, Any]:
         """Return what `summary.json` holds; m and rad."""
@@ -88,10 +93,16 @@ class Imitation(Checked):
                 "body": self.recording.body,
                 "samples": len(self.recording),
                 "duration": self.recording.duration,
-                "noise": {"position": self.noise.position, "angle": self.noise.angle},
+                "noise": {
+                    "position": self.noise.position,
+                    "angle": self.noise.angle,
+                    **self.evidence.to_dict(),
+                },
                 "history": list(self.recording.history),
             },
             "basis_count": self.model.options.basis_count,
+            "regression": self.model.options.regression.name,
+            "derivatives": self.model.options.derivatives.name,
             "duration": self.plan.time[-1],
             "slowdown": self.slowdown,
             "simulator": self.log.simulator,
@@ -153,9 +164,10 @@ def imitate(
     placement = place(recording, arm, accept=clear_of_itself(arm, engines[0])) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
-    demonstration, noise = motion.demonstration(placed), motion.noise(placed)
-    model = learn(demonstration, basis_count, noise=noise, smooth=smooth)
-    placed = _noted(placed, model, noise)
+    demonstration = motion.demonstration(placed)
+    found = evidence(demonstration, smooth=smooth)
+    model = learn(demonstration, basis_count, smooth=smooth)
+    placed = _noted(placed, found)
     tell("solve", 0.0)
     solution = solve(model, arm, start=placement.start if placement else None, engine=engines[0])
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
@@ -168,10 +180,10 @@ def imitate(
         "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
         "ik_to_executed": log.errors,
     }
-    checks = (*reproduction_checks(stages["demonstration_to_dmp"], noise), *path_checks, *log.verdict.checks)
+    checks = (*reproduction_checks(model, found), *path_checks, *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
-    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, noise, second)
+    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second)
 
 
 def _engines(simulator: str) -> tuple[Engine, ...]:
@@ -196,7 +208,7 @@ def _execute(
     return [run(k) for k in range(len(engines))]
 
 
-def _noted(recording: Recording, model: PoseDmp, noise: Noise) -> Recording:
-    if model.options.derivatives != Derivatives.smooth:
+def _noted(recording: Recording, found: Evidence) -> Recording:
+    if not found.smoothed:
         return recording
-    return recording.with_(f"learned with its noise smoothed out: {noise.describe()} found, once placed")
+    return recording.with_(f"learned with its noise smoothed out: {found.noise.describe()} found, once placed")
