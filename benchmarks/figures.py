@@ -32,6 +32,8 @@ from benchmarks.demonstrations import TIME
 Array = NDArray[np.float64]
 
 SEEDS = 20
+LWR: dict[str, Any] = {"basis_count": 100, "regression": "lwr", "derivatives": "interpolate"}
+RIDGE: dict[str, Any] = {"basis_count": 100, "regression": "ridge", "derivatives": "interpolate"}
 _MM, _DEG = 1e3, math.degrees(1.0)
 
 
@@ -67,22 +69,23 @@ class Figure:
 
 
 def helix() -> list[Figure]:
-    """Eight turns at full speed at both ends: default and ridge regression, N = 100 [mm]."""
+    """Eight turns at full speed at both ends: as chosen, and both regressions with N = 100 [mm]."""
     return _position_figures("helix of 8 turns", demonstrations.helix(), default=0.06, ridge=1e-3)
 
 
 def reach() -> list[Figure]:
-    """A minimum-jerk reach of 540 mm, from rest to rest, N = 100 [mm]."""
+    """A minimum-jerk reach of 540 mm, from rest to rest: as chosen, and both regressions with N = 100 [mm]."""
     return _position_figures("minimum-jerk reach", demonstrations.reach(), default=1.5e-3, ridge=1e-5)
 
 
 def rotation() -> list[Figure]:
-    """The rotation to t = 3, N = 100 [deg]."""
+    """The rotation to t = 3: as chosen, and both regressions with N = 100 [deg]."""
     shown = demonstrations.turning(3.0)
     others = _peers(peers.orientation_learners(), shown, 100, angle_rmse)
     return [
         Figure("rotation t < 3", angle_rmse(shown, reproduced_rotation(shown)), 5e-4, "deg", others),
-        Figure("rotation t < 3, ridge", angle_rmse(shown, reproduced_rotation(shown, regression="ridge")), 1e-5, "deg"),
+        Figure("rotation t < 3, lwr", angle_rmse(shown, reproduced_rotation(shown, **LWR)), 5e-4, "deg"),
+        Figure("rotation t < 3, ridge", angle_rmse(shown, reproduced_rotation(shown, **RIDGE)), 1e-5, "deg"),
     ]
 
 
@@ -111,16 +114,24 @@ def reach_rotations() -> list[Figure]:
 
 
 def recorded(folder: Path) -> list[Figure]:
-    """Hand-guided poses, N = 100: medians over the 18, in % of the bounding box's diagonal and in degrees."""
-    shares, angles = [], []
+    """Hand-guided poses, medians over the 18, in % of the bounding box's diagonal and in degrees."""
+    shares: dict[int, list[float]] = {0: [], 100: [], 200: []}
+    angles: dict[int, list[float]] = {0: [], 100: [], 200: []}
     for position, turned in demonstrations.recorded_poses(folder):
-        again = PoseDmp.fit(PoseDemonstration(TIME, poses(position, turned))).rollout_at(TIME)
-        shares.append(diagonal_share(position, again.position))
-        angles.append(angle_rmse(turned, again.rotation))
-    return [
-        Figure("recorded poses, position, median", float(np.median(shares)), 6e-3, "%", _recorded_positions(folder)),
-        Figure("recorded poses, orientation, median", float(np.median(angles)), 0.02, "deg", _recorded_turns(folder)),
-    ]
+        demonstration = PoseDemonstration(TIME, poses(position, turned))
+        for count in shares:
+            again = PoseDmp.fit(demonstration, basis_count=count).rollout_at(TIME)
+            shares[count].append(diagonal_share(position, again.position))
+            angles[count].append(angle_rmse(turned, again.rotation))
+    figures = []
+    for count, share, angle in ((0, 6e-3, 0.12), (100, 6e-3, 0.12), (200, 6e-3, 0.07)):
+        name = f"recorded poses, {f'N = {count}' if count else 'as chosen'}"
+        of_others = count == 100
+        positions = _recorded_positions(folder) if of_others else {}
+        turns = _recorded_turns(folder) if of_others else {}
+        figures.append(Figure(f"{name}, position, median", float(np.median(shares[count])), share, "%", positions))
+        figures.append(Figure(f"{name}, orientation, median", float(np.median(angles[count])), angle, "deg", turns))
+    return figures
 
 
 def source() -> list[Figure]:
@@ -145,9 +156,9 @@ def noise(duration: float) -> list[Figure]:
     for seed in range(SEEDS):
         rng = np.random.default_rng([seed, round(duration)])
         shown = Demonstration(time, with_position_noise(position, 1e-3, rng))
-        lengths.append(axis_rmse(position, Dmp.fit(shown, derivatives="smooth").rollout_at(time).position))
+        lengths.append(axis_rmse(position, Dmp.fit(shown).rollout_at(time).position))
         turning = OrientationDemonstration(time, with_angle_noise(turned, math.radians(1.0), rng))
-        again = OrientationDmp.fit(turning, derivatives="smooth").rollout_at(time).rotation
+        again = OrientationDmp.fit(turning).rollout_at(time).rotation
         turns.append(angle_rmse(turned, again) / math.sqrt(3.0))
     return [
         Figure(f"1 mm noise, helix, T = {duration:g} s, per axis", float(np.mean(lengths)), 0.33, "mm"),
@@ -162,7 +173,7 @@ def noise_together(duration: float) -> list[Figure]:
     for group in range(5):
         rngs = [np.random.default_rng([seed, group, round(duration)]) for seed in range(SEEDS)]
         shown = [Demonstration(time, with_position_noise(position, 1e-3, rng)) for rng in rngs]
-        errors.append(axis_rmse(position, Dmp.fit(shown, derivatives="smooth").rollout_at(time).position))
+        errors.append(axis_rmse(position, Dmp.fit(shown).rollout_at(time).position))
     name = f"1 mm noise, helix, T = {duration:g} s, 20 demonstrations together, per axis"
     return [Figure(name, float(np.mean(errors)), 0.13, "mm")]
 
@@ -177,10 +188,10 @@ def rates() -> list[Figure]:
     figures = []
     for shown in (spiral, Demonstration(TIME, demonstrations.helix())):
         size = float(np.ptp(shown.position, axis=0).max())
-        worst = _disagreement(Dmp.fit(shown), lambda a, b: np.abs(a.position - b.position).max()) / size
+        worst = _disagreement(Dmp.fit(shown, **LWR), lambda a, b: np.abs(a.position - b.position).max()) / size
         figures.append(Figure(f"helix, T = {shown.duration:g} s: 20 Hz, 200 Hz, 1 kHz agree", worst, 1e-6, "1"))
     turned = demonstrations.turning(3.0)
-    model = OrientationDmp.fit(OrientationDemonstration(TIME, turned))
+    model = OrientationDmp.fit(OrientationDemonstration(TIME, turned), **LWR)
     worst = _disagreement(model, lambda a, b: rotation_angles(a.rotation, b.rotation).max())
     figures.append(Figure("rotation t < 3: 20 Hz, 200 Hz, 1 kHz agree", worst, 1e-6, "rad"))
     return [*figures, *_in_phase(demonstrations.helix(), turned)]
@@ -188,8 +199,9 @@ def rates() -> list[Figure]:
 
 def _in_phase(position: Array, turned: Array) -> list[Figure]:
     """A pose moves as its position and its orientation alone do, at every rate."""
-    both = PoseDmp.fit(PoseDemonstration(TIME, poses(position, turned)))
-    alone = Dmp.fit(Demonstration(TIME, position)), OrientationDmp.fit(OrientationDemonstration(TIME, turned))
+    both = PoseDmp.fit(PoseDemonstration(TIME, poses(position, turned)), **LWR)
+    turning = OrientationDmp.fit(OrientationDemonstration(TIME, turned), **LWR)
+    alone = Dmp.fit(Demonstration(TIME, position), **LWR), turning
     apart, angle = 0.0, 0.0
     for dt in (0.05, 0.005, 0.001):
         pose = both.rollout(dt=dt)
@@ -245,7 +257,8 @@ def _position_figures(name: str, shown: Array, *, default: float, ridge: float) 
     others = _peers(peers.position_learners(), shown, 100, position_rmse)
     return [
         Figure(name, position_rmse(shown, reproduced_position(shown)), default, "mm", others),
-        Figure(f"{name}, ridge", position_rmse(shown, reproduced_position(shown, regression="ridge")), ridge, "mm"),
+        Figure(f"{name}, lwr", position_rmse(shown, reproduced_position(shown, **LWR)), default, "mm"),
+        Figure(f"{name}, ridge", position_rmse(shown, reproduced_position(shown, **RIDGE)), ridge, "mm"),
     ]
 
 

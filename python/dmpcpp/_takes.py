@@ -50,11 +50,11 @@ def takes_apart(
 
 def _miss(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
     run = PoseRun(model)
-    run.set_duration(demonstration.duration)
+    run.duration = demonstration.duration
     first = np.zeros(1)
     twist = np.r_[demonstration.position.at(first).velocity[0], demonstration.orientation.at(first).angular_velocity[0]]
     run.start_from(demonstration.pose[0], twist)
-    run.set_goal(demonstration.pose[-1])
+    run.goal = demonstration.pose[-1]
     poses = []
     for step in np.diff(demonstration.time, prepend=0.0):
         run.step(float(step))

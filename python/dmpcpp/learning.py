@@ -98,9 +98,8 @@ class Evidence:
 
 def _told(found: NoiseEstimate) -> str:
     kind = "white" if found.kind == NoiseKind.white else "wandering, seen at rest"
-    return (
-        f"{kind}, motion up to {found.cutoff:.2g} Hz kept, accelerations {found.sharpness:.2g} times as large with it"
-    )
+    kept = f"motion up to {found.cutoff:.2g} Hz kept"
+    return f"{kind}, {kept}, accelerations {found.sharpness:.2g} times as large with it"
 
 
 def _as_dict(found: NoiseEstimate) -> dict[str, Any]:
@@ -204,7 +203,8 @@ class Lesson(Checked):
                     "body": recording.body,
                     "samples": len(recording),
                     "duration": recording.duration,
-                    "noise": {"position": noise.position, "angle": noise.angle, **found.to_dict()},
+                    "noise": {"position": noise.position, "angle": noise.angle},
+                    "evidence": found.to_dict(),
                     "history": list(recording.history),
                 }
                 for recording, noise, found in zip(self.recordings, self.noise, self.evidence, strict=True)

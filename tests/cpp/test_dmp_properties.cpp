@@ -62,6 +62,8 @@ DmpOptions options(Random& random) {
   o.beta = o.alpha * random.uniform(0.1, 0.6);  // overdamped, critical and underdamped
   o.alpha_x = random.uniform(1.0, 8.0);
   o.kernels = random.coin() ? Kernels::equal_in_time : Kernels::source;
+  o.regression = Regression::lwr;
+  o.derivatives = Derivatives::interpolate;
   o.passes = random.whole(1, 10);
   o.orientation_form = random.coin() ? OrientationForm::ude : OrientationForm::log_linear;
   o.start = random.coin() ? Start::demonstrated : Start::rest;
@@ -246,8 +248,7 @@ TEST_CASE("a pose is its position and its orientation, bit for bit") {
     for (Index k = 0; k < t.size(); ++k)
       poses.push_back(pose_of(r[static_cast<std::size_t>(k)], y.row(k).transpose()));
     const PoseDemonstration both(t, poses);
-    DmpOptions o = options(random);
-    if (o.derivatives == Derivatives::automatic) o.derivatives = Derivatives::interpolate;  // repeats are of both
+    const DmpOptions o = options(random);
     const PoseDmp pose = PoseDmp::fit(both, o);
     const Dmp position = Dmp::fit(both.position(), o);
     const OrientationDmp orientation = OrientationDmp::fit(both.orientation(), o);

@@ -63,7 +63,7 @@ def test_the_equation_of_motion_is_the_documented_one():
 
 
 def test_the_forcing_term_is_x_times_the_normalised_sum():
-    model = Dmp.fit(helix(), basis_count=30)
+    model = Dmp.fit(helix(), basis_count=30, regression="lwr")
     phase = np.linspace(0, 1, 50)
     psi = np.exp(-np.log(2) * (29 * phase[:, None] - np.arange(30)) ** 2)
     x = np.exp(-np.log(100) * phase)[:, None]
@@ -142,7 +142,7 @@ def test_options_are_fields_keywords_or_an_object_and_enumerators_go_by_name():
         ({"bases": 3}, "'bases' is unknown"),
         ({"regression": "gpr"}, "'gpr' is unknown, expected one of lwr, ridge"),
         ({"alpha": "large"}, "options.alpha: 'large' is of the wrong type"),
-        ({"basis_count": 0}, "options.basis_count: 0"),
+        ({"basis_count": -1}, "options.basis_count: -1"),
         ({"alpha": np.inf}, "options.alpha: inf"),
     ],
 )

@@ -70,6 +70,10 @@ ENTRIES: dict[str, Entry] = {
     ),
     "Demonstration.at": (DEMONSTRATIONS["Dmp"].at, {"times": TIME}),
     "OrientationDemonstration.at": (DEMONSTRATIONS["OrientationDmp"].at, {"times": TIME}),
+    **{
+        f"{type(shown).__name__}.with_measured": (shown.with_measured, {"measured": np.ones(len(shown))})
+        for shown in DEMONSTRATIONS.values()
+    },
     "so3.exp": (dmpcpp.so3.exp, {"v": np.ones(3)}),
     "so3.hat": (dmpcpp.so3.hat, {"v": np.ones(3)}),
     "so3.left_jacobian": (dmpcpp.so3.left_jacobian, {"v": np.ones(3)}),
@@ -183,7 +187,7 @@ RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
 }
 NO_NUMBERS = {"Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
               "FollowOptions.__init__", "TrackOptions.__init__", "average", "from_json", "load", "save",
-              "to_json"}  # fmt: skip
+              "to_json", "PoseDemonstration.noise_estimates"}  # fmt: skip
 
 
 def place_of(run: Any) -> np.ndarray:

@@ -46,7 +46,7 @@ enum class LogBranch { lifted, principal };
 struct DmpOptions {
   /// N, kernels. 0: the fewest of 25, 50, 100, .. 800 that reproduce the demonstrations as closely as their
   /// samples allow: to a quarter of the error that smoothing leaves, or to .4 of what the neighbours of a
-  /// sample leave open of it, between 1e-6 and 3e-4 of the extent.
+  /// sample leave open of it, between 3e-6 and 3e-4 of the extent.
   int basis_count = 0;
   double alpha = 25.0;                      ///< spring and damper: tau zd = alpha (beta (g - y) - z) + f
   std::optional<double> beta;               ///< alpha / 4 unless given: critically damped

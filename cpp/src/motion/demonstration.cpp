@@ -115,6 +115,10 @@ void require_measured(const Eigen::VectorXd& measured, Index count) {
   if (measured.size() != count)
     throw InvalidArgument("measured: " + std::to_string(measured.size()) +
                           " of them, expected one for each of the " + std::to_string(count) + " samples.");
+  for (Index k = 0; k < count; ++k)
+    if (!(measured[k] == 0.0 || measured[k] == 1.0))
+      throw InvalidArgument(indexed("measured", k) + ": " + number(measured[k]) +
+                            ", expected 1 for a sample that was measured, 0 for one that was filled in.");
 }
 
 RowMatrix positions_of(const Poses& poses) {

@@ -12,9 +12,9 @@ using Eigen::VectorXd;
 
 constexpr double kShareOfNoise = 0.25;   // of the error that smoothing leaves: 3 % more in all
 constexpr double kShareOfDetail = 0.4;   // of what neighbours leave open of a sample
-constexpr double kFinest = 1e-6;         // of the extent
+constexpr double kFinest = 3e-6;         // of the extent
 constexpr double kCoarsest = 3e-4;       // likewise
-constexpr double kLeastExtent = 1e-3;    // rad
+constexpr double kLeastExtent = 0.3;     // rad; what turns less is no motion of the orientation
 constexpr double kRounding = 1e-9;       // of the largest value
 constexpr Index kMostTimes = 400;        // at which a model is compared
 

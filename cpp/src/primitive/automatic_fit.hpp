@@ -75,10 +75,11 @@ Model fit_automatically(const Demonstration* demonstrations, std::size_t count, 
     motions.push_back(aims.back().motion);
     for (const Closeness& part : aims.back().parts) smoothed = smoothed || part.smoothed;
   }
-  if (options.derivatives == Derivatives::automatic) stated.derivatives = Derivatives::interpolate;
+  const bool chosen = options.derivatives == Derivatives::automatic;
+  if (chosen) stated.derivatives = Derivatives::interpolate;
   const auto alone = [&](const Demonstration& one, const DmpOptions& with) { return fit(&one, 1, with); };
   const auto noted = [&](Model model) {
-    if (!smoothed || model.options().derivatives != Derivatives::interpolate) return model;
+    if (!chosen || !smoothed) return model;
     auto parameters = model.parameters();
     parameters.options.derivatives = Derivatives::smooth;
     return Model(parameters);

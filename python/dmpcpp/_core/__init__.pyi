@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     pass
 class FileError(OSError):
@@ -120,6 +120,83 @@ class PoseTrajectory:
         """
         (T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
         """
+class NoiseKind(enum.Enum):
+    """
+    none: samples are learned as they are; white: each has an error of its own; coloured: the error wanders, as that of a tracker.
+    """
+    coloured: typing.ClassVar[NoiseKind]
+    none: typing.ClassVar[NoiseKind]
+    white: typing.ClassVar[NoiseKind]
+    @classmethod
+    def __new__(cls, value):
+        ...
+class NoiseEstimate:
+    """
+    Whether samples carry noise that can be taken out without taking part of the motion, and the evidence. White noise is taken out if freedom <= 0.5, flatness <= 1.55, evenness >= 0.5 or correlation <= 0.1, and sharpness >= 1.25.
+    """
+    @property
+    def correlation(self) -> float:
+        """
+        of neighbouring residuals where the motion is busy; below 0 for noise
+        """
+    @property
+    def cutoff(self) -> float:
+        """
+        Hz, where the smoothing leaves half the power; 0 if none
+        """
+    @property
+    def evenness(self) -> float:
+        """
+        residual where the motion is calm over that where it is busy; 1 for noise
+        """
+    @property
+    def flatness(self) -> float:
+        """
+        sqrt(V(.6) / V(.8)), V(e) the variance left by a fit of freedom e; 1.2 for noise
+        """
+    @property
+    def found(self) -> bool:
+        """
+        whether the kind is not none
+        """
+    @property
+    def freedom(self) -> float:
+        """
+        degrees of freedom of the smoothed motion over the samples that were measured
+        """
+    @property
+    def kind(self) -> NoiseKind:
+        ...
+    @property
+    def measured(self) -> int:
+        """
+        samples that were measured, not filled in or held
+        """
+    @property
+    def removed(self) -> float:
+        """
+        root of the mean square that smoothing takes out, all axes together
+        """
+    @property
+    def resting(self) -> float:
+        """
+        speed where the motion is busy over that where it is calm
+        """
+    @property
+    def sharpness(self) -> float:
+        """
+        largest acceleration of the samples as they are over that of the smoothed motion
+        """
+    @property
+    def sigma(self) -> float:
+        """
+        standard deviation along one axis, unit of the samples or rad; 0 if there is none
+        """
+    @property
+    def unpredicted(self) -> float:
+        """
+        RMS by which a sample differs from what its six neighbours predict, all axes together
+        """
 class Demonstration:
     """
     Positions over time as they were recorded, in any number of dimensions.
@@ -136,9 +213,21 @@ class Demonstration:
         """
         Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.
         """
+    def denoised(self) -> Demonstration:
+        """
+        The same motion without its noise, where the samples show that they carry any, otherwise as it is; see noise_estimate() and NoiseEstimate.
+        """
+    def noise_estimate(self) -> NoiseEstimate:
+        """
+        Whether the samples carry noise that can be taken out, with the evidence.
+        """
     def smoothed(self) -> Demonstration:
         """
         The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
+        """
+    def with_measured(self, measured: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Demonstration:
+        """
+        The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the way, but no noise.
         """
     @property
     def dimension(self) -> int:
@@ -184,9 +273,21 @@ class OrientationDemonstration:
         """
         Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the start.
         """
+    def denoised(self) -> OrientationDemonstration:
+        """
+        The same motion without its noise, where the samples show that they carry any, otherwise as it is; see noise_estimate() and NoiseEstimate.
+        """
+    def noise_estimate(self) -> NoiseEstimate:
+        """
+        Whether the samples carry noise that can be taken out, with the evidence.
+        """
     def smoothed(self) -> OrientationDemonstration:
         """
         The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
+        """
+    def with_measured(self, measured: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> OrientationDemonstration:
+        """
+        The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the way, but no noise.
         """
     @property
     def duration(self) -> float:
@@ -220,13 +321,25 @@ class PoseDemonstration:
         ...
     def __repr__(self) -> str:
         ...
+    def denoised(self) -> PoseDemonstration:
+        """
+        The same motion without its noise, where the samples show that they carry any, otherwise as it is; see noise_estimate() and NoiseEstimate.
+        """
     def noise(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6,) standard deviation of the noise found in the data by generalised cross-validation: of positions [m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples
         """
+    def noise_estimates(self) -> tuple[NoiseEstimate, NoiseEstimate]:
+        """
+        Whether positions [m] and orientations [rad] carry noise that can be taken out, with the evidence.
+        """
     def smoothed(self) -> PoseDemonstration:
         """
         The same motion on the smoothing spline: the noise is found in the data (generalised cross-validation) and taken out; see assess().
+        """
+    def with_measured(self, measured: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseDemonstration:
+        """
+        The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the way, but no noise.
         """
     @property
     def duration(self) -> float:
@@ -262,6 +375,7 @@ class Regression(enum.Enum):
     """
     How the weights are found.
     """
+    automatic: typing.ClassVar[Regression]
     lwr: typing.ClassVar[Regression]
     ridge: typing.ClassVar[Regression]
     @classmethod
@@ -301,6 +415,7 @@ class Derivatives(enum.Enum):
     """
     Velocities and accelerations of a demonstration.
     """
+    automatic: typing.ClassVar[Derivatives]
     gradient: typing.ClassVar[Derivatives]
     interpolate: typing.ClassVar[Derivatives]
     smooth: typing.ClassVar[Derivatives]
@@ -370,7 +485,7 @@ class DmpOptions:
     @property
     def basis_count(self) -> int:
         """
-        N, kernels
+        N, kernels; 0: as many as the demonstrations need
         """
     @basis_count.setter
     def basis_count(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
@@ -1119,6 +1234,11 @@ class FitReport:
     def condition(self) -> float:
         """
         of the regression's matrix
+        """
+    @property
+    def evidence(self) -> list[list[NoiseEstimate]]:
+        """
+        what each demonstration shows of noise: a list of NoiseEstimate, of its positions, of its orientations, or of both
         """
     @property
     def largest(self) -> numpy.typing.NDArray[numpy.float64]:

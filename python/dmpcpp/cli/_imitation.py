@@ -211,6 +211,7 @@ def _print(run: Imitation, out: Path) -> None:
     console = Console(highlight=False)
     for line in run.recording.history:
         console.print(line, style=note_style(line), soft_wrap=True, markup=False)
+    console.print(run.evidence.sentence, soft_wrap=True, markup=False)
     for line in run.log.arm.warnings:
         console.print(f"arm: {line}", style="yellow", soft_wrap=True, markup=False)
     console.print(

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     multiple=True,
     type=click.IntRange(1),
     metavar="N",
-    help="Learn without the N-th FILE, counted from 1.",
+    help="Learn without the N-th FILE, from 1.",
 )
 @click.option(
     "--out",

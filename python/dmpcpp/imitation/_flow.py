@@ -93,11 +93,8 @@ class Imitation(Checked):
                 "body": self.recording.body,
                 "samples": len(self.recording),
                 "duration": self.recording.duration,
-                "noise": {
-                    "position": self.noise.position,
-                    "angle": self.noise.angle,
-                    **self.evidence.to_dict(),
-                },
+                "noise": {"position": self.noise.position, "angle": self.noise.angle},
+                "evidence": self.evidence.to_dict(),
                 "history": list(self.recording.history),
             },
             "basis_count": self.model.options.basis_count,
