@@ -198,7 +198,7 @@ TEST_CASE("rotation-dilation scaling: a rotated, dilated goal gives the rotated,
   const Dmp dmp = Dmp::fit(reach(300, 2.0), options);
   const Eigen::Vector3d from = dmp.goal().normalized();
   const Eigen::Vector3d to = Eigen::Vector3d(-1, .5, .2).normalized();
-  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  const Eigen::Matrix3d turn = so3::exp(std::acos(from.dot(to)) * from.cross(to).normalized());
   const RowMatrix expected = 1.7 * dmp.rollout({}, {}, .01).position * turn.transpose();
   CHECK(largest(dmp.rollout(Eigen::VectorXd(1.7 * turn * dmp.goal()), {}, .01).position, expected) < 1e-11);
   const RowMatrix opposite = dmp.rollout(Eigen::VectorXd(-dmp.goal()), {}, .01).position;
