@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
+import importlib.util
 import platform
 import sys
 from collections.abc import Callable
@@ -62,9 +63,9 @@ _PACKAGES = (  # module, distribution, what for, extra, needed
     ("scipy", "scipy", "preparing recordings, metrics", "", True),
     ("click", "click", "this command line", "", True),
     ("rich", "rich", "tables and progress bars", "", True),
-    ("pybullet", "pybullet", "physics, and the URDFs of the known arms", "sim", True),
+    ("pybullet", "pybullet", "physics: --simulator bullet, both; dmpcpp grasp", "bullet", False),
+    ("mujoco", "mujoco", "physics: --simulator mujoco, both", "mujoco", False),
     ("matplotlib", "matplotlib", "pictures and the report's figures", "plot", True),
-    ("mujoco", "mujoco", "a second physics engine: --simulator mujoco, both", "mujoco", False),
     ("viser", "viser", "the moving arm in reports, dmpcpp view", "view", False),
     ("yourdfpy", "yourdfpy", "the arm's shapes in reports, dmpcpp view", "view", False),
     ("rosbags", "rosbags", "ROS bags and MCAP recordings", "formats", False),
@@ -78,27 +79,35 @@ def examine() -> Diagnosis:
     return Diagnosis(
         (
             _python(),
-            _tried("core", _core, "learning, rollout"),
+            _tried("core", _core, "learning, rollout", "pip install --force-reinstall dmpcpp"),
             *map(_package, _PACKAGES),
-            _tried("known arms", _arms, "--arm panda, iiwa, xarm6"),
+            _tried("physics engine", _engines, "executing and verifying a motion", 'pip install "dmpcpp[mujoco]"'),
+            _tried("known arms", _arms, "--arm panda, iiwa, xarm6", "dmpcpp fetch"),
+            _tried("motions", _motions, "the motion of dmpcpp demo", "dmpcpp fetch"),
         )
     )
 
 
 def _python() -> Part:
     ok = sys.version_info >= (3, 11)
-    return Part("python", ok, platform.python_version(), "everything", "Install Python 3.11 or newer.", True)
+    return Part("python", ok, platform.python_version(), "everything", "Install Python 3.11 to 3.13.", True)
 
 
 def _package(wanted: tuple[str, str, str, str, bool]) -> Part:
     module, distribution, purpose, extra, needed = wanted
-    to_do = f'pip install "dmpcpp[{extra}]"' if extra else f"pip install {distribution}"
+    to_do = f'pip install "dmpcpp[{extra}]"{_build(extra)}' if extra else f"pip install {distribution}"
     try:
         with quiet():  # PyBullet tells its build time
             importlib.import_module(module)
     except Exception as error:  # a broken package may raise anything
         return Part(distribution, False, f"{type(error).__name__}: {error}", purpose, to_do, needed)
     return Part(distribution, True, _version(distribution), purpose, "", needed)
+
+
+def _build(extra: str) -> str:
+    """PyBullet has wheels up to Python 3.11."""
+    from_source = extra == "bullet" and sys.version_info >= (3, 12)
+    return " (compiles it: g++ and some minutes)" if from_source else ""
 
 
 def _version(distribution: str) -> str:
@@ -108,11 +117,11 @@ def _version(distribution: str) -> str:
         return "installed"
 
 
-def _tried(name: str, attempt: Callable[[], str], purpose: str) -> Part:
+def _tried(name: str, attempt: Callable[[], str], purpose: str, to_do: str) -> Part:
     try:
         return Part(name, True, attempt(), purpose, "", True)
     except Exception as error:
-        return Part(name, False, f"{type(error).__name__}: {error}", purpose, 'pip install "dmpcpp[sim]"', True)
+        return Part(name, False, f"{type(error).__name__}: {error}", purpose, to_do, True)
 
 
 def _core() -> str:
@@ -126,6 +135,19 @@ def _core() -> str:
     if not abs(end - 1.0) < 1e-2:
         raise ArithmeticError(f"a learned motion ends at {end:.4f}, expected 1; install dmpcpp anew")
     return str(__version__)
+
+
+def _engines() -> str:
+    found = [name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name)]
+    if not found:
+        raise ImportError("neither PyBullet nor MuJoCo is installed")
+    return " and ".join(found)
+
+
+def _motions() -> str:
+    from dmpcpp import recordings
+
+    return f"{len(recordings.clip_names())} clips"
 
 
 def _arms() -> str:

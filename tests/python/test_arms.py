@@ -58,5 +58,5 @@ def test_base_and_tip_are_not_for_a_named_arm():
 
 def test_without_pybullet_data_the_error_says_what_to_install(monkeypatch):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(MissingDependency, match=r"dmpcpp\[sim\]"):
+    with pytest.raises(MissingDependency, match=r"dmpcpp fetch"):
         arms.find("panda")

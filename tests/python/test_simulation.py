@@ -431,8 +431,8 @@ def test_progress_goes_up_to_the_whole(panda):
 
 def test_without_pybullet_the_error_says_what_to_install(panda, monkeypatch):
     monkeypatch.setitem(sys.modules, "pybullet", None)
-    with pytest.raises(MissingDependency, match=r"dmpcpp\[sim\].*3\.11"):
-        simulation.execute(panda, swing(panda, 0.1))
+    with pytest.raises(MissingDependency, match=r"dmpcpp\[bullet\].*mujoco"):
+        simulation.execute(panda, swing(panda, 0.1), simulator=simulation.Bullet)
 
 
 @pytest.mark.parametrize(

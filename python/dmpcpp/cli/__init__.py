@@ -1,5 +1,5 @@
 """The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | view |
-report | batch | check-urdf | doctor`.
+report | batch | check-urdf | doctor | fetch`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -7,6 +7,7 @@ Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its chec
 from dmpcpp.cli._batch import batch
 from dmpcpp.cli._checking import check_urdf, doctor
 from dmpcpp.cli._config import configurable
+from dmpcpp.cli._fetch import fetch
 from dmpcpp.cli._generality import generality
 from dmpcpp.cli._grasp import grasp
 from dmpcpp.cli._group import main
@@ -34,6 +35,7 @@ _COMMANDS = (
     batch,
     check_urdf,
     doctor,
+    fetch,
 )
 
 for command in _COMMANDS:

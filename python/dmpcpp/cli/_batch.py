@@ -14,7 +14,14 @@ import click
 
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
-from dmpcpp.cli._options import arm_options, preparation_options, scale_range, taken_preparation
+from dmpcpp.cli._options import (
+    DEFAULT_ENGINE,
+    SHOWN_ENGINE,
+    arm_options,
+    preparation_options,
+    scale_range,
+    taken_preparation,
+)
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 
 if TYPE_CHECKING:
@@ -32,7 +39,11 @@ if TYPE_CHECKING:
 @click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the search for a placement.")
 @click.option(
-    "--simulator", default="bullet", show_default=True, type=click.Choice(["bullet", "mujoco", "both"]), help="Engine."
+    "--simulator",
+    default=DEFAULT_ENGINE,
+    show_default=SHOWN_ENGINE,
+    type=click.Choice(["bullet", "mujoco", "both"]),
+    help="Engine.",
 )
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option("--reports", is_flag=True, help="Make each run's report.html too.")

@@ -13,7 +13,15 @@ import click
 
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
-from dmpcpp.cli._options import arm_options, placing_options, preparation_options, taken_placing, taken_preparation
+from dmpcpp.cli._options import (
+    DEFAULT_ENGINE,
+    SHOWN_ENGINE,
+    arm_options,
+    placing_options,
+    preparation_options,
+    taken_placing,
+    taken_preparation,
+)
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import checks_table, note_style, way
 from dmpcpp.errors import MissingDependency
@@ -51,8 +59,8 @@ def _run_options(
             ),
             click.option(
                 "--simulator",
-                default="bullet",
-                show_default=True,
+                default=DEFAULT_ENGINE,
+                show_default=SHOWN_ENGINE,
                 type=click.Choice(["bullet", "mujoco", "both"]),
                 help="Physics engine; with both the two are compared.",
             ),

@@ -12,7 +12,14 @@ import click
 
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
-from dmpcpp.cli._options import arm_options, preparation_options, scale_range, taken_preparation
+from dmpcpp.cli._options import (
+    DEFAULT_ENGINE,
+    SHOWN_ENGINE,
+    arm_options,
+    preparation_options,
+    scale_range,
+    taken_preparation,
+)
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import checks_table, note_style, way
 from dmpcpp.errors import InvalidArgument
@@ -149,8 +156,8 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
 @click.option("--from-joints", metavar="Q1,Q2,..", help="Where the arm stands [rad]; searched unless given.")
 @click.option(
     "--simulator",
-    default="bullet",
-    show_default=True,
+    default=DEFAULT_ENGINE,
+    show_default=SHOWN_ENGINE,
     type=click.Choice(["bullet", "mujoco", "none"]),
     help="In whose geometry the path is looked at for contacts.",
 )

@@ -11,10 +11,15 @@ if TYPE_CHECKING:
     from dmpcpp.motion import Preparation
 from functools import partial
 
+from dmpcpp._engines import default_engine
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+# Of --simulator.
+DEFAULT_ENGINE = default_engine()
+SHOWN_ENGINE = "bullet; mujoco without PyBullet"
 
 
 def arm_options(command: Callable[..., None]) -> Callable[..., None]:

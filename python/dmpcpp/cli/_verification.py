@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from dmpcpp.cli._group import FAILED
-from dmpcpp.cli._options import arm_options
+from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE, arm_options
 from dmpcpp.cli._tables import checks_table
 from dmpcpp.errors import InvalidArgument
 
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--simulator",
-    default="bullet",
-    show_default=True,
+    default=DEFAULT_ENGINE,
+    show_default=SHOWN_ENGINE,
     type=click.Choice(["bullet", "mujoco", "none"]),
     help="In whose geometry the executed path is looked at for contacts.",
 )

@@ -16,6 +16,7 @@ from typing import Any
 
 from dmpcpp import metrics, motion, simulation
 from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
+from dmpcpp._engines import default_engine
 from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.learning import Evidence, evidence, learn, reproduction, reproduction_checks
@@ -118,7 +119,7 @@ def imitate(
     scale: tuple[float, float] = (0.25, 1.0),
     smooth: bool = True,
     basis_count: int | None = None,
-    simulator: str = "bullet",
+    simulator: str | None = None,
     progress: Progress | None = None,
 ) -> Imitation:
     """Carry out a recorded motion on a simulated arm and say how well that went.
@@ -138,9 +139,10 @@ def imitate(
         Whether noise found in the recording may be smoothed out in learning; the recording's history tells.
     basis_count : int, optional
         Kernels of the model; by default as many as the motion needs.
-    simulator : {"bullet", "mujoco", "both"}
-        The physics engine. With both, Bullet is the one that everything is measured in, MuJoCo executes the
-        same joints, and checks say how far the two are apart.
+    simulator : {"bullet", "mujoco", "both"}, optional
+        The physics engine; unless given "bullet", or "mujoco" where that alone is installed. With both, Bullet is
+        the one that everything is measured in, MuJoCo executes the same joints, and checks say how far the two are
+        apart.
     progress : callable, optional
         See `Progress`.
 
@@ -153,7 +155,7 @@ def imitate(
         The simulator is not installed.
     """
     tell = progress or (lambda stage, done: None)
-    engines = _engines(simulator)
+    engines = _engines(simulator or default_engine())
     tell("place", 0.0)
     recording = motion.plausible(motion.continuous(recording))
     if place is True:

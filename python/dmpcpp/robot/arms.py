@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from dmpcpp import _pybullet_data as _data
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
@@ -127,12 +127,10 @@ def acceleration_limit(arm: Arm) -> Array:
 
 
 def _pybullet_data() -> Path:
-    """Folder of the installed URDFs, found without importing PyBullet."""
-    spec = importlib.util.find_spec("pybullet_data")
-    if spec is None or not spec.submodule_search_locations:
+    found = _data.find()
+    if found is None:
         raise MissingDependency(
-            "pybullet_data, which holds the URDFs of the known arms, is not installed. "
-            'Install the extra: pip install "dmpcpp[sim]" (wheels up to Python 3.11), '
-            "or give the path of a .urdf file."
+            "pybullet_data, which holds the URDFs of the known arms, is not installed. Run `dmpcpp fetch`, install "
+            'PyBullet (pip install "dmpcpp[bullet]"), or give the path of a .urdf file.'
         )
-    return Path(spec.submodule_search_locations[0])
+    return found

@@ -1,12 +1,14 @@
 """Physics: a joint trajectory carried out on a simulated arm, and the judgement of how it went.
 
-``execute(arm, joints)`` gives an ``ExecutionLog``; ``log.verdict`` says what held. PyBullet and
-MuJoCo are imported when they are first needed; without them ``execute`` raises ``MissingDependency``.
+``execute(arm, joints)`` gives an ``ExecutionLog``; ``log.verdict`` says what held. PyBullet and MuJoCo are imported
+when they are first needed. Where no engine is named PyBullet is taken, or MuJoCo where that alone is installed; without
+both ``execute`` raises ``MissingDependency``.
 """
 
 from dmpcpp.checks import Check, Checked
 from dmpcpp.robot import Disturbance
 from dmpcpp.simulation._bullet import Bullet
+from dmpcpp.simulation._default import default_simulator
 from dmpcpp.simulation._execution import execute
 from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation._grasp_world import GraspWorld
@@ -49,6 +51,7 @@ __all__ = [
     "Verdict",
     "agreement",
     "contacts_along",
+    "default_simulator",
     "execute",
     "from_rest_to_rest",
     "inverse_kinematics_checks",

@@ -212,5 +212,6 @@ def _pybullet() -> ModuleType:
     except ImportError:
         raise MissingDependency(
             f"pybullet is not installed for this Python {sys.version_info.major}.{sys.version_info.minor}. "
-            'Install the extra: pip install "dmpcpp[sim]". Its newest wheels are for Python 3.11.'
+            'Install it: pip install "dmpcpp[bullet]", compiled where this Python has no wheel; or take MuJoCo: '
+            '--simulator mujoco, pip install "dmpcpp[mujoco]".'
         ) from None

@@ -11,9 +11,9 @@ import numpy as np
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot import Disturbance
-from dmpcpp.simulation._bullet import Bullet
 from dmpcpp.simulation._control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
 from dmpcpp.simulation._control_loop import ControlLoop, Progress, Recorder, Sensors, by_motors, by_torque
+from dmpcpp.simulation._default import default_simulator
 from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation._reference import INTERPOLATIONS, Interpolation, Reference, sample
 from dmpcpp.simulation._simulator import Simulator
@@ -33,7 +33,7 @@ def execute(
     consistent: bool = True,
     interpolation: Interpolation = "quintic",
     disturbance: Disturbance | None = None,
-    simulator: Callable[..., Simulator] = Bullet,
+    simulator: Callable[..., Simulator] = default_simulator,
     progress: Progress | None = None,
 ) -> ExecutionLog:
     """Carry out ``joints`` on ``arm`` under physics; two calls give the same log bit for bit.

@@ -11,7 +11,7 @@ from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check
 from dmpcpp.robot import links_of
-from dmpcpp.simulation._bullet import Bullet
+from dmpcpp.simulation._default import default_simulator
 from dmpcpp.simulation._simulator import Clearance, Contact, Simulator, kind_of
 
 _FAR = 1.0  # m; what is farther away than this is not looked for
@@ -31,7 +31,7 @@ def contacts_along(
     arm: Arm,
     position: Array,
     *,
-    simulator: Callable[[Arm, float], Simulator] = Bullet,
+    simulator: Callable[[Arm, float], Simulator] = default_simulator,
 ) -> list[tuple[int, Contact]]:
     """Contacts of the arm with itself, the floor and obstacles at joints (T, n), no dynamics: (index, contact)."""
     with simulator(arm, 1e-3) as engine:
@@ -44,7 +44,7 @@ def path_checks(
     tolerances: PathTolerances | None = None,
     *,
     poses: int = 100,
-    simulator: Callable[[Arm, float], Simulator] = Bullet,
+    simulator: Callable[[Arm, float], Simulator] = default_simulator,
 ) -> tuple[Check, ...]:
     """Hold the clearances along a planned path against what is asked for.
 

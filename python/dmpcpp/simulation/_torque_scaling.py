@@ -8,7 +8,7 @@ import numpy as np
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
-from dmpcpp.simulation._bullet import Bullet
+from dmpcpp.simulation._default import default_simulator
 from dmpcpp.simulation._simulator import Simulator
 
 
@@ -17,7 +17,7 @@ def torque_duration_factor(
     joints: JointTrajectory,
     *,
     share: float = 0.95,
-    simulator: Callable[[Arm, float], Simulator] = Bullet,
+    simulator: Callable[[Arm, float], Simulator] = default_simulator,
 ) -> float:
     """The smallest factor on the duration that keeps the torque within ``share`` of the effort limits.
 
