@@ -9,15 +9,19 @@ mkdir -p "$logs"
 python=${PYTHON:-$root/.venv/bin/python}
 all=(lint release package matrix debian asan tsan rtsan valgrind fuzz properties coverage mutation python-asan wheel)
 
-# What setup.sh leaves out: clang-22, valgrind, gcovr, atheris, tools of packages.
-tools() { bash -c 'source scripts/setup.sh && install_packages_of_checks'; }
+set_up() { bash -c 'source scripts/setup.sh && set_up test'; }
+# What the tests do not need: clang-22, valgrind, gcovr, atheris, tools of packages.
+tools() { bash -c 'source scripts/setup.sh && set_up_checks'; }
 preset() { cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1"; }
 
+# In an environment of its own, so that it needs neither a compiler nor dmpcpp; clang-format as the commit hook has it.
 check_lint() {
-  local ruff=${python%/*}/ruff
-  "$ruff" check python tests benchmarks scripts && "$ruff" format --check python tests benchmarks scripts || return 1
-  command -v clang-format >/dev/null || { echo "skipped clang-format: not installed"; return 0; }
-  find cpp python/bindings tests/cpp tests/fuzz examples benchmarks/cpp -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+  local tools=build/lint/bin
+  [ -x $tools/clang-format ] || { python3 -m venv --clear build/lint &&
+    $tools/pip install -q "ruff>=0.6" "$(grep -o 'clang-format==[0-9.]*' .pre-commit-config.yaml)" || return 1; }
+  $tools/ruff check python tests benchmarks scripts && $tools/ruff format --check python tests benchmarks scripts &&
+    find cpp python/bindings tests/cpp tests/fuzz examples benchmarks/cpp -name '*.[ch]pp' -print0 |
+    xargs -0 $tools/clang-format --dry-run -Werror
 }
 
 # The movement primitives alone: what continuous integration has the time for.
@@ -71,6 +75,7 @@ check_python-asan() {
 
 names=("$@")
 [ ${#names[@]} -gt 0 ] || names=("${all[@]}")
+[ "${names[*]}" = lint ] || set_up
 failed=0
 for name in "${names[@]}"; do
   declare -F "check_$name" >/dev/null || { echo "check.sh: '$name' is unknown, expected one of ${all[*]}" >&2; exit 2; }
