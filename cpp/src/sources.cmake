@@ -27,6 +27,7 @@ set(DMP_core_SOURCES
   primitive/pose_dmp.cpp
   primitive/position_motion.cpp
   primitive/spring_damper.cpp
+  primitive/turning_reference.cpp
   spline/band_cholesky.cpp
   spline/collocation.cpp
   spline/denoising.cpp

@@ -54,6 +54,7 @@ void bind_enums(py::module_& m) {
       .value("automatic", OrientationForm::automatic)
       .value("ude", OrientationForm::ude)
       .value("log_linear", OrientationForm::log_linear)
+      .value("turning", OrientationForm::turning)
       .finalize();
   py::native_enum<LogBranch>(m, "LogBranch", "enum.Enum",
                              "Log(Rg R^T) followed through pi, or the shortest rotation.")

@@ -23,9 +23,10 @@ enum class Scaling {
 };
 
 /// The equation of motion of orientations; see OrientationDmp.
-/// automatic: ude for a demonstration that stays within 3 rad of its goal, where its spring is stable;
-/// beyond, whichever of the two reproduces the (first) demonstration better.
-enum class OrientationForm { automatic, ude, log_linear };
+/// automatic: ude for demonstrations that stay within 2 rad of their goal; beyond, turning, which is stable
+/// for every start, goal and number of turns. Where the forcing term is scaled, which turning does not bear,
+/// log_linear beyond 3 rad.
+enum class OrientationForm { automatic, ude, log_linear, turning };
 
 /// What a rollout starts with: the velocity that was demonstrated, or rest.
 enum class Start { demonstrated, rest };

@@ -33,6 +33,9 @@ struct OrientationDmpParameters {
       Eigen::Vector3d::Zero();  ///< Log(Rg R0^T) on its branch, rad; beyond pi where the way is longer
   Eigen::Vector3d amplitude = Eigen::Vector3d::Zero();  ///< range of Log(Rg R^T), axis by axis, rad
   RowMatrix weights;                                    ///< (N x 3) of the forcing term
+  /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans of
+  /// the phase that turns along, the first and the last three times. Empty in the other forms.
+  RowMatrix reference;
 };
 
 /// A dynamic movement primitive for orientations on SO(3). Immutable: share it between threads.
@@ -40,8 +43,11 @@ struct OrientationDmpParameters {
 ///   UDE form:            tau eta_d = alpha (beta Log(Rg R^T) - eta) + S f(x),   tau Rd = [eta]x R
 ///   log-linear form:     tau z_d = alpha (-beta p - z) + S f(x),  tau p_d = z,  R = Exp(p) Rg
 ///
+///   turning form:        the log-linear one about a rotation that turns along: R = Exp(p) Q(s), p -> p_g
+///
 /// (Ude et al. 2014, ICRA, with omega in the world frame; Koutras and Doulgeri 2020 for the second. The
-/// logarithm is followed beyond pi: total rotations of up to 2 pi reproduce, about one axis any.) Gains:
+/// logarithm is followed beyond pi: in the first two forms total rotations of up to 2 pi reproduce, about one
+/// axis any. In the turning form p stays small whatever the number of turns: docs/formulation.md.) Gains:
 /// DmpOptions::orientation_alpha, _beta.
 class DMP_EXPORT OrientationDmp {
  public:

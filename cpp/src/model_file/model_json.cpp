@@ -10,7 +10,7 @@
 namespace dmp::detail {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 1: without a reference to turn along
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
 constexpr std::size_t kMostObjects = 100;  // after each the parser looks through all that its parent holds
@@ -26,7 +26,8 @@ const Names<Scaling> kScaling{{Scaling::none, "none"},
                               {Scaling::rotation_dilation, "rotation_dilation"}};
 const Names<OrientationForm> kForm{{OrientationForm::automatic, "automatic"},
                                    {OrientationForm::ude, "ude"},
-                                   {OrientationForm::log_linear, "log_linear"}};
+                                   {OrientationForm::log_linear, "log_linear"},
+                                   {OrientationForm::turning, "turning"}};
 const Names<LogBranch> kBranch{{LogBranch::lifted, "lifted"}, {LogBranch::principal, "principal"}};
 const Names<Derivatives> kDerivatives{{Derivatives::interpolate, "interpolate"},
                                       {Derivatives::smooth, "smooth"},
@@ -89,8 +90,13 @@ template <class Parameters>
 Json write(const char* kind, const Parameters& parameters) {
   Json options = Json::object();
   visit_options(JsonWriter(options), parameters.options);
-  Json json{{"format", "dmpcpp"}, {"version", kVersion}, {"kind", kind}, {"options", std::move(options)}};
+  Json json{{"format", "dmpcpp"}, {"version", 1}, {"kind", kind}, {"options", std::move(options)}};
   visit_parameters(JsonWriter(json), parameters);
+  if constexpr (!std::is_same_v<Parameters, DmpParameters>)
+    if (parameters.reference.rows() > 0) {  // otherwise older versions can read it
+      json["version"] = kVersion;
+      json["reference"] = to_rows(parameters.reference);
+    }
   return json;
 }
 
@@ -105,6 +111,8 @@ Parameters read(const Json& json) {
   if (parameters.options.basis_count == 0)
     throw InvalidArgument("options.basis_count: 0, expected the number of kernels.");
   visit_parameters(JsonReader(json, "model", ""), parameters);
+  if constexpr (!std::is_same_v<Parameters, DmpParameters>)
+    if (json.contains("reference")) parameters.reference = table_at(json["reference"], "reference");
   return parameters;
 }
 
@@ -176,8 +184,8 @@ Model model_from_json(const Json& json) {
   if (text_at(member(json, "format", "model"), "format") != "dmpcpp")
     throw InvalidArgument("format: expected \"dmpcpp\".");
   const int version = integer_at(member(json, "version", "model"), "version");
-  if (version != kVersion)
-    throw InvalidArgument("version: " + std::to_string(version) + ", expected " + std::to_string(kVersion) +
+  if (version < 1 || version > kVersion)
+    throw InvalidArgument("version: " + std::to_string(version) + ", expected 1 to " + std::to_string(kVersion) +
                           (version > kVersion ? ". The file was written by a newer dmpcpp: update." : "."));
   const std::string kind = text_at(member(json, "kind", "model"), "kind");
   if (kind == "dmp") return Dmp(read<DmpParameters>(json));

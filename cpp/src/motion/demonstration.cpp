@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "motion/continuous_quaternions.hpp"
 #include "spline/denoising.hpp"
 
 namespace dmp {
 namespace {
 
+using detail::continuous_quaternions;
 using detail::indexed;
 using detail::number;
 using Eigen::Index;
@@ -71,17 +73,6 @@ Rotations checked(const Rotations& rotations, const char* what = "rotations") {
           " deg from the sample before, expected at most 90. Sample faster, or remove the jump.");
   }
   return result;
-}
-
-/// (T x 4) w, x, y, z; neighbours on one hemisphere.
-RowMatrix continuous_quaternions(const Rotations& rotations) {
-  RowMatrix table(static_cast<Index>(rotations.size()), 4);
-  for (Index k = 0; k < table.rows(); ++k) {
-    const Quaterniond q(rotations[static_cast<std::size_t>(k)]);
-    table.row(k) << q.w(), q.x(), q.y(), q.z();
-    if (k > 0 && table.row(k).dot(table.row(k - 1)) < 0.0) table.row(k) *= -1.0;
-  }
-  return table;
 }
 
 Quaterniond quaternion(const RowMatrix& table, Index k) {

@@ -21,9 +21,14 @@ constexpr Index kMostTimes = 400;        // at which a model is compared
 /// How close is close enough. The error that smoothing leaves is sigma sqrt(axes freedom).
 Closeness closeness(const NoiseEstimate& noise, int axes, double extent, double least) {
   const double detail = std::clamp(kShareOfDetail * noise.unpredicted, kFinest * extent, kCoarsest * extent);
-  if (!noise.found()) return {std::max(detail, least), false};
+  if (!noise.found()) return {std::max(detail, least), extent, false};
   const double left = noise.sigma * std::sqrt(axes * noise.freedom);
-  return {std::max({kShareOfNoise * left, kFinest * extent, least}), true};
+  return {std::max({kShareOfNoise * left, kFinest * extent, least}), extent, true};
+}
+
+/// The tolerance of a part that has noise, over its extent.
+double share_left(const Closeness& part) {
+  return part.smoothed && part.extent > 0.0 ? std::min(part.tolerance / part.extent, kCoarsest) : 0.0;
 }
 
 Closeness closeness(const Demonstration& motion, const NoiseEstimate& noise) {
@@ -92,7 +97,12 @@ Prepared<PoseDemonstration> prepared(const PoseDemonstration& given, Derivatives
   NoiseEstimate position, orientation;
   const PoseDemonstration cleaned = given.denoised(&position, &orientation);
   const PoseDemonstration& motion = derivatives == Derivatives::automatic ? cleaned : given;
-  return {motion, {closeness(motion.position(), position), closeness(motion.orientation(), orientation)}};
+  Closeness first = closeness(motion.position(), position);
+  Closeness second = closeness(motion.orientation(), orientation);
+  // Where one part has noise, the other need not be closer to its extent than that one can be.
+  first.tolerance = std::max(first.tolerance, share_left(second) * first.extent);
+  second.tolerance = std::max(second.tolerance, share_left(first) * second.extent);
+  return {motion, {first, second}};
 }
 
 double miss(const Dmp& model, const Prepared<Demonstration>& aim) {

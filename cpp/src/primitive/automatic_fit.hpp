@@ -15,6 +15,7 @@ namespace dmp::detail {
 /// samples themselves leave open.
 struct Closeness {
   double tolerance;
+  double extent;
   bool smoothed;
 };
 

@@ -28,6 +28,20 @@ void require_alike(const std::vector<Model>& models) {
   }
 }
 
+/// What models in the turning form turn with, which must be the same for all.
+template <class Model>
+RowMatrix common_reference(const std::vector<Model>& models) {
+  const RowMatrix& first = models[0].parameters().reference;
+  for (std::size_t j = 1; j < models.size(); ++j) {
+    const RowMatrix& other = models[j].parameters().reference;
+    if (other.rows() != first.rows() || other != first)
+      throw InvalidArgument("models[" + std::to_string(j) +
+                            "]: turns along with another rotation than the first. Fit the demonstrations "
+                            "together.");
+  }
+  return first;
+}
+
 template <class Model>
 double share_of(const std::vector<Model>& models) {
   return 1.0 / static_cast<double>(models.size());
@@ -69,6 +83,7 @@ OrientationDmp average(const std::vector<OrientationDmp>& models) {
   mean.options = models[0].options();
   mean.duration = 0.0;
   mean.weights = RowMatrix::Zero(models[0].parameters().weights.rows(), 3);
+  mean.reference = common_reference(models);
   Rotations starts;
   Rotations goals;
   for (const OrientationDmp& model : models) {
@@ -94,6 +109,7 @@ PoseDmp average(const std::vector<PoseDmp>& models) {
   mean.options = models[0].options();
   mean.duration = 0.0;
   mean.weights = RowMatrix::Zero(models[0].parameters().weights.rows(), 6);
+  mean.reference = common_reference(models);
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   Rotations starts;

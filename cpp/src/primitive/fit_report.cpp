@@ -193,7 +193,7 @@ void warn(FitReport& report, const Demonstrations& demonstrations, const DmpOpti
       report.warnings.push_back(
           detail::indexed("demonstrations", static_cast<long>(j)) +
           ": two samples tell a start and a goal only; the spring and damper alone move there.");
-  if (report.largest_log > 1.9 * M_PI)
+  if (report.largest_log > 1.9 * M_PI && options.orientation_form != OrientationForm::turning)
     report.warnings.push_back(
         "largest_log: " + number(report.largest_log) +
         " rad comes near 2 pi, where the logarithm is singular across the axis. Split the demonstration.");

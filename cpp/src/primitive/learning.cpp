@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "geometry/exponential_rates.hpp"
+#include "motion/continuous_quaternions.hpp"
 #include "primitive/forcing_scale.hpp"
 
 namespace dmp::detail {
@@ -96,6 +98,33 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
   return forcing_of(tau, alpha, beta, p.second, errors, p.first);
 }
 
+/// The forcing term of p in R = Exp(p) Q: p, p' and p'' from those of R, analytically.
+RowMatrix turning_forcing(const OrientationTrajectory& motion, double tau, const DmpOptions& options,
+                          const TurningReference& reference) {
+  const double stiffness = *options.orientation_alpha * *options.orientation_beta;
+  const Index n = motion.time.size();
+  const auto log_at = [&](Index k, const TurningReference::State& with) {
+    return so3::log(Eigen::Quaterniond(Eigen::Quaterniond(motion.rotation[static_cast<std::size_t>(k)]) *
+                                       with.turn.conjugate()));
+  };
+  const Vector3d goal = log_at(n - 1, reference.at(1.0));
+  RowMatrix forcing(n, 3);
+  for (Index k = 0; k < n; ++k) {
+    const TurningReference::State with = reference.at(motion.time[k] / tau);
+    const Vector3d p = log_at(k, with);
+    const Eigen::Quaterniond turn = so3::exp_quaternion(p);
+    const ExponentialRates rates(p, turn);
+    const Eigen::Matrix3d inverse = so3::left_jacobian_inverse(p);
+    const Vector3d along = turn * with.velocity;
+    const Vector3d v = inverse * (tau * motion.angular_velocity.row(k).transpose() - along);
+    const Vector3d own = rates.velocity(v);
+    const Vector3d rest = turn * with.acceleration + own.cross(along) + rates.acceleration(v, Vector3d::Zero());
+    const Vector3d a = inverse * (tau * tau * motion.angular_acceleration.row(k).transpose() - rest);
+    forcing.row(k) = (a - stiffness * (goal - p) + *options.orientation_alpha * v).transpose();
+  }
+  return forcing;
+}
+
 /// (g - y0) scales only an axis that ends elsewhere than it starts, measured by the range it covers.
 void require_displacement(const VectorXd& displacement, const VectorXd& amplitude) {
   for (Index d = 0; d < displacement.size(); ++d)
@@ -119,13 +148,60 @@ double largest_log(const OrientationDemonstration& demonstration, LogBranch bran
   return errors_to_goal(demonstration.rotation(), branch).rowwise().norm().maxCoeff();
 }
 
-OrientationForm form_for(const DmpOptions& options, double largest_log) {
-  if (options.orientation_form != OrientationForm::automatic) return options.orientation_form;
-  // Beyond pi the spring of the UDE form pushes away across the axis; the log-linear one is stable
-  // everywhere.
-  constexpr double kFar = 3.0;
-  const bool far = options.log_branch == LogBranch::lifted && largest_log > kFar;
+namespace {
+
+// Beyond this the spring of the UDE form grows weak and then pushes away across the axis, and the logarithm
+// about the goal turns quickly near 2 pi.
+constexpr double kNear = 2.0;
+constexpr double kNearIfScaled = 3.0;
+
+OrientationForm without_reference(double largest_log, const DmpOptions& options) {
+  const bool far = options.log_branch == LogBranch::lifted && largest_log > kNearIfScaled;
   return far ? OrientationForm::log_linear : OrientationForm::ude;
+}
+
+std::optional<TurningReference> reference_along(const std::vector<const OrientationDemonstration*>& together) {
+  std::vector<VectorXd> phases;
+  std::vector<RowMatrix> tables;
+  for (const OrientationDemonstration* one : together) {
+    phases.push_back(one->time() / one->duration());
+    tables.push_back(continuous_quaternions(one->rotation()));
+    if (tables.back().row(0).dot(tables.front().row(0)) < 0.0) tables.back() *= -1.0;
+  }
+  return TurningReference::along(phases, tables);
+}
+
+}  // namespace
+
+void settle_form(DmpOptions& options, double largest_log, const RowMatrix& reference) {
+  const bool turns = reference.rows() > 0;
+  if (options.orientation_form == OrientationForm::automatic)
+    options.orientation_form = turns ? OrientationForm::turning : without_reference(largest_log, options);
+  if (turns != (options.orientation_form == OrientationForm::turning))
+    throw InvalidArgument(turns ? "reference: given, expected none unless options.orientation_form is turning."
+                                : "reference: none, expected one for options.orientation_form turning.");
+  if (turns) TurningReference{reference};
+}
+
+std::optional<TurningReference> choose_form(DmpOptions& options,
+                                            const std::vector<const OrientationDemonstration*>& together) {
+  OrientationForm& form = options.orientation_form;
+  double largest = 0.0;
+  if (form == OrientationForm::automatic)
+    for (const OrientationDemonstration* one : together)
+      largest = std::max(largest, largest_log(*one, options.log_branch));
+  const bool may_turn = options.log_branch == LogBranch::lifted && options.scaling == Scaling::none;
+  const bool wanted = form == OrientationForm::turning ||
+                      (form == OrientationForm::automatic && may_turn && largest > kNear);
+  std::optional<TurningReference> reference;
+  if (wanted) reference = reference_along(together);
+  if (form == OrientationForm::turning && !reference)
+    throw InvalidArgument(
+        "demonstrations: turn too fast, or too differently, for one rotation to turn along with them. Use "
+        "OrientationForm::log_linear, or learn them apart.");
+  if (form == OrientationForm::automatic)
+    form = reference ? OrientationForm::turning : without_reference(largest, options);
+  return reference;
 }
 
 GaussianBasis basis_of(const DmpOptions& options) {
@@ -160,7 +236,8 @@ PositionLesson lesson_of(const Demonstration& given, const DmpOptions& options) 
   return lesson;
 }
 
-OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOptions& options) {
+OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOptions& options,
+                            const TurningReference* reference) {
   const std::optional<OrientationDemonstration> smoothed =
       options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
   const OrientationDemonstration& demonstration = smoothed ? *smoothed : given;
@@ -174,7 +251,12 @@ OrientationLesson lesson_of(const OrientationDemonstration& given, const DmpOpti
   if (options.start == Start::rest) lesson.start_eta.setZero();
   lesson.start_error = errors.row(0);
   lesson.amplitude = range(errors);
-  lesson.target = {motion.time / tau, orientation_forcing(motion, errors, tau, options), Vector3d::Ones()};
+  lesson.target = {motion.time / tau, RowMatrix::Zero(motion.time.size(), 3), Vector3d::Ones()};
+  if (reference) {
+    lesson.target.value = turning_forcing(motion, tau, options, *reference);
+  } else if (options.orientation_form != OrientationForm::turning) {
+    lesson.target.value = orientation_forcing(motion, errors, tau, options);
+  }
   if (demonstration.size() < 3) keep_spring_only(lesson.start_eta, lesson.target);
   return lesson;
 }

@@ -6,19 +6,23 @@
 #include <dmp/options.hpp>
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "primitive/turning_reference.hpp"
 
 namespace dmp::detail {
 
 /// The largest |Log(Rg R^T)| on the way, rad.
 double largest_log(const OrientationDemonstration& demonstration, LogBranch branch);
 
-/// The form of the equation for demonstrations whose largest logarithm is as given; see
-/// OrientationForm::automatic.
-OrientationForm form_for(const DmpOptions& options, double largest_log);
+/// Settles OrientationForm::automatic for a model whose largest logarithm is as given. Throws InvalidArgument
+/// unless there is a reference if and only if the form needs one.
+void settle_form(DmpOptions& options, double largest_log, const RowMatrix& reference);
 
-/// The same for a demonstration: within 3 rad of its goal the UDE form; beyond, whichever of both reproduces
-/// it better.
-OrientationForm form_for(const DmpOptions& options, const OrientationDemonstration& demonstration);
+/// Settles it for demonstrations, which are learned together, and finds what the turning form turns with.
+std::optional<TurningReference> choose_form(DmpOptions& options,
+                                            const std::vector<const OrientationDemonstration*>& together);
 
 GaussianBasis basis_of(const DmpOptions& resolved);
 
@@ -44,7 +48,9 @@ struct OrientationLesson {
   Eigen::Vector3d amplitude;
   ForcingTarget target;
 };
-OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const DmpOptions& options);
+/// In the turning form without `reference` there is no target.
+OrientationLesson lesson_of(const OrientationDemonstration& demonstration, const DmpOptions& options,
+                            const TurningReference* reference = nullptr);
 
 /// Sets a target's scale (its axes from `first` on) after the scaling that the options name: the forcing of a
 /// demonstration whose displacement is `displacement`, in a model whose displacement is `reference`.

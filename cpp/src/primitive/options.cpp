@@ -42,7 +42,7 @@ void require_enumerators(const DmpOptions& o) {
   require_enumerator(o.kernels, Kernels::source, "kernels");
   require_enumerator(o.regression, Regression::automatic, "regression");
   require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
-  require_enumerator(o.orientation_form, OrientationForm::log_linear, "orientation_form");
+  require_enumerator(o.orientation_form, OrientationForm::turning, "orientation_form");
   require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
   require_enumerator(o.derivatives, Derivatives::automatic, "derivatives");
   require_enumerator(o.start, Start::rest, "start");
@@ -78,6 +78,9 @@ DmpOptions DmpOptions::resolved() const {
   require_enumerators(*this);
   if (basis_count != 0) require_whole(basis_count, 100000, "basis_count", " kernels");
   require_whole(passes, 10000, "passes", "");
+  if (orientation_form == OrientationForm::turning && scaling != Scaling::none)
+    throw InvalidArgument(
+        "options.scaling: OrientationForm::turning has no way from start to goal to scale by, expected none.");
   result.beta = beta.value_or(alpha / 4.0);
   result.orientation_alpha = orientation_alpha.value_or(alpha);
   result.orientation_beta =

@@ -43,7 +43,7 @@ OrientationDmpParameters checked(const OrientationDmpParameters& given) {
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 3, "amplitude");
   detail::require_weights(given.weights, parameters.options.basis_count, 3);
-  parameters.options.orientation_form = detail::form_for(parameters.options, given.start_error.norm());
+  detail::settle_form(parameters.options, given.start_error.norm(), given.reference);
   return parameters;
 }
 
@@ -98,10 +98,14 @@ OrientationDmp OrientationDmp::fit_together(const OrientationDemonstration* demo
                                          });
   }
   DmpOptions resolved = options.resolved();
-  resolved.orientation_form = detail::form_for(resolved, demonstrations[0]);
+  std::vector<const OrientationDemonstration*> turns;
+  for (std::size_t j = 0; j < count; ++j) turns.push_back(&demonstrations[j]);
+  const std::optional<detail::TurningReference> reference = detail::choose_form(resolved, turns);
   std::vector<detail::OrientationLesson> lessons;
-  for (std::size_t j = 0; j < count; ++j) lessons.push_back(detail::lesson_of(demonstrations[j], resolved));
+  for (std::size_t j = 0; j < count; ++j)
+    lessons.push_back(detail::lesson_of(demonstrations[j], resolved, reference ? &*reference : nullptr));
   OrientationDmpParameters parameters = means_of(demonstrations, lessons, resolved);
+  if (reference) parameters.reference = reference->coefficients();
   std::vector<ForcingTarget> targets;
   for (detail::OrientationLesson& lesson : lessons) {
     detail::apply_scaling(lesson.target, 0, lesson.start_error, parameters.start_error, parameters.amplitude,
@@ -164,7 +168,7 @@ OrientationTrajectory OrientationDmp::roll_out(const detail::Timetable& timetabl
 OrientationRun::OrientationRun(const OrientationDmp& dmp) {
   const OrientationDmpParameters& p = dmp.parameters();
   const detail::OrientationMotion motion(p.options, p.start, p.goal, p.start_error,
-                                         p.duration * p.start_velocity, p.amplitude);
+                                         p.duration * p.start_velocity, p.amplitude, p.reference);
   state_ = std::make_unique<State>(State{
       dmp.data_, detail::Runner<detail::OrientationMotion>(p.options, dmp.forcing(), p.duration, motion)});
 }
@@ -229,23 +233,5 @@ double OrientationRun::time() const noexcept { return state_->runner.phase().tim
 double OrientationRun::phase() const noexcept { return state_->runner.phase().s(); }
 double OrientationRun::duration() const noexcept { return state_->runner.phase().duration(); }
 Status OrientationRun::status() const noexcept { return state_->runner.status(); }
-
-OrientationForm detail::form_for(const DmpOptions& options, const OrientationDemonstration& demonstration) {
-  const OrientationForm likely = form_for(options, largest_log(demonstration, options.log_branch));
-  if (options.orientation_form != OrientationForm::automatic || likely == OrientationForm::ude) return likely;
-  // Far from the goal neither form is always the better one: near 2 pi the logarithm turns quickly.
-  const auto miss = [&](OrientationForm form) {
-    DmpOptions tried = options;
-    tried.orientation_form = form;
-    const Rotations again =
-        OrientationDmp::fit(demonstration, tried).rollout_at(demonstration.time()).rotation;
-    double squares = 0.0;
-    for (std::size_t k = 0; k < again.size(); ++k)
-      squares += std::pow(so3::distance(again[k], demonstration.rotation()[k]), 2);
-    return squares;
-  };
-  return miss(OrientationForm::ude) < miss(OrientationForm::log_linear) ? OrientationForm::ude
-                                                                        : OrientationForm::log_linear;
-}
 
 }  // namespace dmp

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "geometry/exponential_rates.hpp"
 #include "geometry/flush.hpp"
 
 namespace dmp::detail {
@@ -20,46 +21,6 @@ Vector3d small_inverse_jacobian(const Vector3d& u, const Vector3d& v) noexcept {
   return v - 0.5 * uv + u.cross(uv) / 12.0;
 }
 
-/// omega and its rate for R = Exp(p) Rg, from p' and p'': omega = J_l(p) p', J_l = 1 + a [p]x + b [p]x^2 with
-/// a = (1 - cos theta) / theta^2, b = (theta - sin theta) / theta^3. `turn` is Exp(p): it holds sine and
-/// cosine.
-class ExponentialRates {
- public:
-  ExponentialRates(const Vector3d& p, const Quaterniond& turn) noexcept : p_(p) {
-    const double t = p.squaredNorm();
-    if (t < 0.0025) {
-      a_ = 0.5 + t * (-1.0 / 24 + t * (1.0 / 720 - t / 40320));
-      b_ = 1.0 / 6 + t * (-1.0 / 120 + t * (1.0 / 5040 - t / 362880));
-      a_rate_ = -1.0 / 12 + t * (1.0 / 180 - t / 6720);
-      b_rate_ = -1.0 / 60 + t * (1.0 / 1260 - t / 60480);
-      return;
-    }
-    const double theta = std::sqrt(t);
-    const double s = turn.vec().dot(p) / theta;  // sin(theta / 2)
-    a_ = 2.0 * s * s / t;
-    b_ = (theta - 2.0 * s * turn.w()) / (t * theta);
-    a_rate_ = (1.0 - t * b_ - 2.0 * a_) / t;
-    b_rate_ = (a_ - 3.0 * b_) / t;
-  }
-
-  Vector3d velocity(const Vector3d& v) const noexcept {
-    const Vector3d pv = p_.cross(v);
-    return v + a_ * pv + b_ * p_.cross(pv);
-  }
-  Vector3d acceleration(const Vector3d& v, const Vector3d& v_rate) const noexcept {
-    const Vector3d pv = p_.cross(v);
-    const double along = p_.dot(v);
-    return velocity(v_rate) + along * (a_rate_ * pv + b_rate_ * p_.cross(pv)) + b_ * v.cross(pv);
-  }
-
- private:
-  Vector3d p_;
-  double a_;
-  double b_;
-  double a_rate_;  // da/dt = a_rate_ (p . p')
-  double b_rate_;
-};
-
 /// Back to length 1 to first order: the steps leave it by rounding only.
 void renormalise(Quaterniond& q) noexcept {
   q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
@@ -70,7 +31,8 @@ void renormalise(Quaterniond& q) noexcept {
 
 OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start,
                                      const Eigen::Matrix3d& goal, const Vector3d& start_error,
-                                     const Vector3d& eta, const Vector3d& amplitude)
+                                     const Vector3d& eta, const Vector3d& amplitude,
+                                     const RowMatrix& reference)
     : integrator_(options.integrator),
       form_(options.orientation_form),
       branch_(options.log_branch),
@@ -90,6 +52,34 @@ OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Mat
       rotation_(q_) {
   scale_.set(e_);
   follow_error();
+  if (form_ != OrientationForm::turning) return;
+  DmpOptions of_p = options;
+  of_p.alpha = *options.orientation_alpha;
+  of_p.beta = options.orientation_beta;
+  const TurningReference turns(reference);
+  const Vector3d zero = Vector3d::Zero();
+  turning_.emplace(Turning{turns, PositionMotion(of_p, zero, zero, zero, zero), turns.at(0.0).turn.conjugate(),
+                           turns.at(1.0).turn.conjugate()});
+  set_turning_goal(true);
+  begin_turning(q_, eta);
+}
+
+/// p = Log(R Q^-1), p' = J_l(p)^-1 eta: Q stands still at the start.
+void OrientationMotion::begin_turning(const Quaterniond& rotation, const Vector3d& eta) noexcept {
+  const Vector3d p = so3::log(Quaterniond(rotation * turning_->first));
+  const Vector3d z = so3::left_jacobian_inverse(p) * eta;
+  turning_->p.begin(p, z);
+}
+
+/// The goal of p, on the branch of the present one; back to the principal one where that leads far around.
+void OrientationMotion::set_turning_goal(bool at_once) noexcept {
+  constexpr double kFarthest = 4.0;  // rad
+  const Quaterniond turn = target_ * turning_->last;
+  const Vector3d present = turning_->p.goal();
+  Vector3d goal = at_once ? so3::log(turn) : so3::lifted_log(turn, present);
+  if (goal.norm() > kFarthest) goal = so3::log(turn);
+  if (at_once) return turning_->p.start_with_goal(goal);
+  turning_->p.set_goal(goal);
 }
 
 Vector3d OrientationMotion::error(const Quaterniond& goal, const Quaterniond& q) const noexcept {
@@ -98,6 +88,10 @@ Vector3d OrientationMotion::error(const Quaterniond& goal, const Quaterniond& q)
 }
 
 void OrientationMotion::begin(const Quaterniond& rotation, const Vector3d& eta) noexcept {
+  if (turning_) {
+    set_turning_goal(true);
+    return begin_turning(rotation, eta);
+  }
   start_ = rotation;
   q_ = rotation;
   eta_ = eta;
@@ -108,6 +102,7 @@ void OrientationMotion::begin(const Quaterniond& rotation, const Vector3d& eta) 
 
 void OrientationMotion::set_goal(const Quaterniond& goal) noexcept {
   target_ = goal;
+  if (turning_) return set_turning_goal(false);
   settled_ = false;
   if (goal_filter_ == 0.0) jump_to_goal();
 }
@@ -121,6 +116,10 @@ void OrientationMotion::rescale() noexcept {
 }
 
 void OrientationMotion::start_with_goal(const Quaterniond& goal) noexcept {
+  if (turning_) {
+    target_ = goal;
+    return set_turning_goal(true);
+  }
   set_goal(goal);
   jump_to_goal();
 }
@@ -163,6 +162,7 @@ Vector3d OrientationMotion::acceleration(const Vector3d& e, const Vector3d& eta,
 }
 
 void OrientationMotion::advance(double step, const ForcingNodes& forcing) noexcept {
+  if (turning_) return turning_->p.advance(step, forcing);
   const double* end = scaled(forcing.end, 2);
   if (integrator_ == Integrator::semi_implicit_euler) {
     advance_euler(step, end);
@@ -247,7 +247,29 @@ void OrientationMotion::advance_euler(double step, const double* end) noexcept {
   e_ = error(goal_, q_);
 }
 
+/// eta = J_l p' + Exp(p) omega_Q and its rate, omega_Q that of the reference.
+bool OrientationMotion::look_turning(double speed, double speed_rate, const double* forcing) noexcept {
+  if (!turning_->p.look(1.0, 0.0, forcing)) return false;
+  turning_->p.publish();
+  const Vector3d p = turning_->p.position();
+  const Vector3d v = turning_->p.velocity();
+  const Vector3d a = turning_->p.acceleration();
+  const TurningReference::State with = turning_->reference.at(phase_);
+  turn_ = so3::exp_quaternion(p);
+  const ExponentialRates rates(p, turn_);
+  const Vector3d own = rates.velocity(v);
+  const Vector3d along = turn_ * with.velocity;
+  eta_ = own + along;
+  const Vector3d change = rates.acceleration(v, a) + turn_ * with.acceleration + own.cross(along);
+  q_ = turn_ * with.turn;
+  renormalise(q_);
+  next_velocity_ = eta_ * speed;
+  next_acceleration_ = change * (speed * speed) + eta_ * speed_rate;
+  return q_.coeffs().allFinite() && next_velocity_.allFinite() && next_acceleration_.allFinite();
+}
+
 bool OrientationMotion::look(double speed, double speed_rate, const double* forcing) noexcept {
+  if (turning_) return look_turning(speed, speed_rate, forcing);
   const double* const f = scaled(forcing, 3);
   Vector3d change;
   if (form_ == OrientationForm::log_linear) {

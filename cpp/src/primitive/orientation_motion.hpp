@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "primitive/forcing_scale.hpp"
 #include "primitive/position_motion.hpp"
 #include "primitive/spring_damper.hpp"
+#include "primitive/turning_reference.hpp"
 
 namespace dmp::detail {
 
@@ -16,9 +18,10 @@ namespace dmp::detail {
 class OrientationMotion {
  public:
   /// start_error: Log(Rg R0^T) of the demonstration, on its branch; eta = tau omega at the start.
+  /// reference: of the turning form, else empty.
   OrientationMotion(const DmpOptions& options, const Eigen::Matrix3d& start, const Eigen::Matrix3d& goal,
                     const Eigen::Vector3d& start_error, const Eigen::Vector3d& eta,
-                    const Eigen::Vector3d& amplitude);
+                    const Eigen::Vector3d& amplitude, const RowMatrix& reference);
 
   void begin(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
   void set_goal(const Eigen::Quaterniond& goal) noexcept;
@@ -26,6 +29,8 @@ class OrientationMotion {
   void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
+  /// Where in the phase it is: what the turning form turns with.
+  void set_phase(double s) noexcept { phase_ = s; }
   /// As of PositionMotion.
   bool look(double speed, double speed_rate, const double* forcing) noexcept;
   void publish() noexcept;
@@ -36,6 +41,17 @@ class OrientationMotion {
   const Eigen::Quaterniond& goal() const noexcept { return target_; }
 
  private:
+  /// p of R = Exp(p) Q(s), which moves as a position does.
+  struct Turning {
+    TurningReference reference;
+    PositionMotion p;
+    Eigen::Quaterniond first;  // Q^-1 at the start
+    Eigen::Quaterniond last;   // and at the end
+  };
+
+  void begin_turning(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
+  void set_turning_goal(bool at_once) noexcept;
+  bool look_turning(double speed, double speed_rate, const double* forcing) noexcept;
   void jump_to_goal() noexcept;
   void rescale() noexcept;
   /// e_ anew, after the goal or R changed by other than a step, and z_ so that omega stays.
@@ -54,6 +70,8 @@ class OrientationMotion {
   Eigen::Quaterniond filtered_goal(double piece) const noexcept;
   const double* scaled(const double* forcing, int node) noexcept;
 
+  std::optional<Turning> turning_;
+  double phase_ = 0.0;
   Integrator integrator_;
   OrientationForm form_;
   LogBranch branch_;

@@ -31,6 +31,7 @@ struct PoseMotion {
     position.advance(step, f);
     orientation.advance(step, {f.start + 3, f.middle + 3, f.end + 3});
   }
+  void set_phase(double s) noexcept { orientation.set_phase(s); }
   bool look(double speed, double speed_rate, const double* forcing) noexcept {
     return position.look(speed, speed_rate, forcing) && orientation.look(speed, speed_rate, forcing + 3);
   }
@@ -54,7 +55,7 @@ PoseMotion motion_of(const PoseDmpParameters& p) {
   return {detail::PositionMotion(p.options, position_of(p.start), position_of(p.goal), z.head<3>(),
                                  p.amplitude.head<3>()),
           detail::OrientationMotion(p.options, rotation_of(p.start), rotation_of(p.goal), p.start_error,
-                                    z.tail<3>(), p.amplitude.tail<3>())};
+                                    z.tail<3>(), p.amplitude.tail<3>(), p.reference)};
 }
 
 PoseDmpParameters checked(const PoseDmpParameters& given) {
@@ -69,7 +70,7 @@ PoseDmpParameters checked(const PoseDmpParameters& given) {
   detail::require_finite(given.start_error, 3, "start_error");
   detail::require_finite(given.amplitude, 6, "amplitude");
   detail::require_weights(given.weights, parameters.options.basis_count, 6);
-  parameters.options.orientation_form = detail::form_for(parameters.options, given.start_error.norm());
+  detail::settle_form(parameters.options, given.start_error.norm(), given.reference);
   return parameters;
 }
 
@@ -80,9 +81,10 @@ struct PoseLesson {
   ForcingTarget target;
 };
 
-PoseLesson lesson_of(const PoseDemonstration& demonstration, const DmpOptions& options) {
+PoseLesson lesson_of(const PoseDemonstration& demonstration, const DmpOptions& options,
+                     const detail::TurningReference* reference) {
   PoseLesson lesson{detail::lesson_of(demonstration.position(), options),
-                    detail::lesson_of(demonstration.orientation(), options),
+                    detail::lesson_of(demonstration.orientation(), options, reference),
                     {}};
   ForcingTarget& position = lesson.position.target;
   ForcingTarget& orientation = lesson.orientation.target;
@@ -156,10 +158,14 @@ PoseDmp PoseDmp::fit_together(const PoseDemonstration* demonstrations, std::size
                                          });
   }
   DmpOptions resolved = options.resolved();
-  resolved.orientation_form = detail::form_for(resolved, demonstrations[0].orientation());
+  std::vector<const OrientationDemonstration*> turns;
+  for (std::size_t j = 0; j < count; ++j) turns.push_back(&demonstrations[j].orientation());
+  const std::optional<detail::TurningReference> reference = detail::choose_form(resolved, turns);
   std::vector<PoseLesson> lessons;
-  for (std::size_t j = 0; j < count; ++j) lessons.push_back(lesson_of(demonstrations[j], resolved));
+  for (std::size_t j = 0; j < count; ++j)
+    lessons.push_back(lesson_of(demonstrations[j], resolved, reference ? &*reference : nullptr));
   PoseDmpParameters parameters = means_of(demonstrations, lessons, resolved);
+  if (reference) parameters.reference = reference->coefficients();
   const Vector3d way = position_of(parameters.goal) - position_of(parameters.start);
   std::vector<ForcingTarget> targets;
   for (PoseLesson& lesson : lessons) {

@@ -31,6 +31,7 @@ class PositionMotion {
   void start_with_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept;
 
   void advance(double step, const ForcingNodes& forcing) noexcept;
+  void set_phase(double) noexcept {}
   /// Velocity and acceleration while the phase goes at `speed` (ds/dt) and speeds up at `speed_rate`;
   /// `forcing` is the term as it is now. False if they, or the position, are not finite.
   bool look(double speed, double speed_rate, const double* forcing) noexcept;

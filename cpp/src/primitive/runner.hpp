@@ -74,6 +74,7 @@ class Runner {
     const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
     if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
     evaluated_at_ = on ? phase_.s() : kNowhere;
+    motion_.set_phase(phase_.s());
     if (!motion_.look(phase_.speed(), phase_.speed_rate(), node(kEnd))) return false;
     motion_.publish();
     return true;
