@@ -49,7 +49,7 @@ def main(as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps(_summary(measured), indent=2, allow_nan=False))
     else:
-        _print(measured)
+        show(measured)
     sys.exit(0 if all(figure.ok for figure in measured) else 3)
 
 
@@ -63,7 +63,8 @@ def _summary(measured: list[Figure]) -> dict[str, Any]:
     }
 
 
-def _print(measured: list[Figure]) -> None:
+def show(measured: list[Figure]) -> None:
+    """Print the figures as a table, with the other packages that are there."""
     from rich.console import Console
 
     console = Console(highlight=False, width=None if sys.stdout.isatty() else 140)

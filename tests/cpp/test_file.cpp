@@ -89,6 +89,17 @@ TEST_CASE("what can not be moved into place leaves nothing behind") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) == 1);
 }
 
+TEST_CASE("a model that turns along is a file of version 2 and comes back bit for bit") {
+  const OrientationDmp dmp = OrientationDmp::fit(rotation(300, 4.0, 12.0));
+  REQUIRE(dmp.options().orientation_form == OrientationForm::turning);
+  const std::string text = to_json(dmp);
+  CHECK(text.find("\"version\": 2") != std::string::npos);
+  const OrientationDmp again = std::get<OrientationDmp>(from_json(text));
+  CHECK(again.parameters().reference == dmp.parameters().reference);
+  CHECK(again.rollout({}, {}, .01).rotation == dmp.rollout({}, {}, .01).rotation);
+  CHECK(to_json(again) == text);
+}
+
 TEST_CASE("what is no model of this version is refused with the place") {
   const std::string text = to_json(Dmp::fit(reach(100, 1.0), stated()));
   const auto refused = [](const std::string& bad, const char* reason) {
@@ -98,7 +109,7 @@ TEST_CASE("what is no model of this version is refused with the place") {
   refused("[]", "expected an object");
   refused("{}", "'format' is missing");
   refused(replaced(text, "\"dmpcpp\"", "\"other\""), "format");
-  refused(replaced(text, "\"version\": 1", "\"version\": 2"), "newer dmpcpp");
+  refused(replaced(text, "\"version\": 1", "\"version\": 3"), "newer dmpcpp");
   refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": \"mp\""), "'mp' is unknown");
   refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": \"dmp\", \"kind\": \"dmp\""), "stands twice");
   refused(replaced(text, "\"lwr\"", "\"gpr\""),

@@ -252,3 +252,100 @@ TEST_CASE("a pause holds an orientation, and it goes on to its goal") {
   for (int i = 0; i < 6000; ++i) run.step(1e-3);
   CHECK(so3::distance(run.rotation(), dmp.goal()) < 1e-6);
 }
+
+namespace {
+/// A minimum-jerk turn about (1, 2, 3) with a wobble of 17 degrees across.
+OrientationDemonstration turn(double degrees, int count = 500) {
+  const Eigen::VectorXd t = grid(count, 4.0);
+  const Vector3d axis = Vector3d(1, 2, 3).normalized();
+  const Vector3d across = axis.cross(Vector3d::UnitX()).normalized();
+  Rotations r;
+  for (int k = 0; k < count; ++k) {
+    const double s = minimum_jerk(t[k] / 4.0);
+    r.push_back(so3::exp(0.3 * std::sin(3 * M_PI * s) * across) * so3::exp(degrees * kDegree * s * axis));
+  }
+  return {t, r};
+}
+
+struct Effort {
+  double rate;
+  double travel;
+};
+Effort effort_of(const OrientationTrajectory& motion) {
+  const Eigen::VectorXd rate = motion.angular_velocity.rowwise().norm();
+  return {rate.maxCoeff(), rate.sum() * motion.time[1]};
+}
+}  // namespace
+
+TEST_CASE("turns of one to three times around are reproduced, and no start or goal makes them whirl") {
+  for (const double degrees : {300.0, 360.0, 370.0, 720.0, 1080.0}) {
+    CAPTURE(degrees);
+    const OrientationDemonstration shown = turn(degrees);
+    const OrientationDmp dmp = OrientationDmp::fit(shown, stated());
+    CHECK(dmp.options().orientation_form == OrientationForm::turning);
+    CHECK(reproduction(shown, stated()).rmse < .002 * kDegree);
+    const Effort shown_effort = effort_of(dmp.rollout({}, {}, .004));
+    for (const double off : {5.0, 20.0, 60.0, 150.0})
+      for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, -1, 1), Vector3d(1, 2, 3), Vector3d(-1, 1, -1)}) {
+        const Eigen::Matrix3d goal = so3::exp(off * kDegree * axis.normalized()) * dmp.goal();
+        const OrientationTrajectory motion = dmp.rollout(goal, {}, .004);
+        const Effort effort = effort_of(motion);
+        CHECK(effort.rate < (off > 60 ? 2.0 : off > 20 ? 1.3 : 1.1) * shown_effort.rate);
+        CHECK(effort.travel < shown_effort.travel + 1.05 * off * kDegree);
+        CHECK(so3::distance(motion.rotation.back(), goal) < .02 * kDegree);
+      }
+  }
+}
+
+TEST_CASE("a turning run starts anywhere, follows a goal without a jump and gives its own derivatives") {
+  const OrientationDmp dmp = OrientationDmp::fit(turn(370), stated());
+  OrientationRun run(dmp);
+  run.start_from(so3::exp({.3, -.5, .2}) * dmp.start(), {.1, .2, -.3});
+  const double dt = 1e-4;
+  Eigen::Quaterniond before = run.quaternion();
+  Vector3d rate = run.angular_velocity();
+  CHECK((rate - Vector3d(.1, .2, -.3)).norm() < 1e-12);
+  for (int k = 0; k < 40000; ++k) {
+    if (k == 15000) run.set_goal(so3::exp({1.0, .5, -2.0}) * dmp.goal());
+    run.step(dt);
+    const Vector3d mean = so3::log(Eigen::Quaterniond(run.quaternion() * before.conjugate())) / dt;
+    CHECK((mean - 0.5 * (rate + run.angular_velocity())).norm() < 1e-4);
+    CHECK((run.angular_velocity() - rate).norm() < 0.05);
+    before = run.quaternion();
+    rate = run.angular_velocity();
+  }
+  run.reset();
+  CHECK(so3::distance(run.rotation(), dmp.start()) < 1e-12);
+}
+
+TEST_CASE("what a turning model turns with must be there, and whole") {
+  OrientationDmpParameters parameters = OrientationDmp::fit(turn(370), stated()).parameters();
+  CHECK(parameters.reference.rows() == 3);
+  const auto refused = [&](const char* reason) {
+    CHECK_THROWS_WITH_AS(OrientationDmp{parameters}, doctest::Contains(reason), InvalidArgument);
+  };
+  const RowMatrix reference = parameters.reference;
+  parameters.reference.row(1).setZero();
+  refused("comes nearer to 0");
+  parameters.reference = 2.0 * reference;
+  refused("reference[0]: of length 2");
+  parameters.reference = reference.leftCols(3);
+  refused("reference: 3 x 3");
+  parameters.reference = RowMatrix();
+  refused("reference: none");
+  parameters.options.orientation_form = OrientationForm::ude;
+  parameters.reference = reference;
+  refused("reference: given");
+  DmpOptions scaled;
+  scaled.orientation_form = OrientationForm::turning;
+  scaled.scaling = Scaling::per_axis_relative;
+  CHECK_THROWS_WITH_AS(OrientationDmp::fit(turn(100), scaled), doctest::Contains("options.scaling"),
+                       InvalidArgument);
+}
+
+TEST_CASE("several takes turn along with one rotation") {
+  const OrientationDmp dmp = OrientationDmp::fit({turn(350), turn(370), turn(390)}, stated());
+  CHECK(dmp.options().orientation_form == OrientationForm::turning);
+  const Effort effort = effort_of(dmp.rollout({}, {}, .004));
+  CHECK(effort.travel == doctest::Approx(effort_of(OrientationDmp::fit(turn(370), stated()).rollout({}, {}, .004)).travel).epsilon(.02));
+}

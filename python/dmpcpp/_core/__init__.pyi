@@ -398,6 +398,7 @@ class OrientationForm(enum.Enum):
     """
     automatic: typing.ClassVar[OrientationForm]
     log_linear: typing.ClassVar[OrientationForm]
+    turning: typing.ClassVar[OrientationForm]
     ude: typing.ClassVar[OrientationForm]
     @classmethod
     def __new__(cls, value):

@@ -22,6 +22,7 @@ OPTIONS: dict[str, dict[str, object]] = {
     "rotation_dilation": {"scaling": "rotation_dilation", "force_after_end": True, "phase_stop": 10.0},
     "log_linear": {"orientation_form": "log_linear", "goal_filter": 10.0, "tempo_filter": 0.0},
     "ude_principal": {"orientation_form": "ude", "log_branch": "principal"},
+    "turning": {"orientation_form": "turning"},
     "gains": {"alpha": 30.0, "beta": 6.0, "orientation_alpha": 20.0, "orientation_beta": 5.0, "alpha_x": 3.0},
 }
 
