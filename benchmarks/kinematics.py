@@ -23,7 +23,7 @@ from itertools import islice
 
 import dmpcpp
 import numpy as np
-from dmpcpp import Arm, InverseKinematics, JointTracker, JointTrajectory, arms
+from dmpcpp import Arm, InverseKinematics, JointTracker, JointTrajectory
 from scipy.interpolate import CubicSpline
 
 from benchmarks import kinematics_causes as causes
@@ -166,7 +166,7 @@ def unreachable(name: str, arm: Arm, count: int, seed: int) -> None:
 def timing(name: str, arm: Arm, count: int, seed: int) -> None:
     """Time-optimal timing of splines through five random postures, 1000 samples, beside toppra's."""
     random = np.random.default_rng(3 + seed)
-    limit = arms.acceleration_limit(arm)
+    limit = arm.acceleration_limit
     ratios, ours, theirs, uniform, worst = [], [], [], [], 0.0
     for _ in range(count):
         through = 0.5 * random_joints(arm, random, 5)

@@ -1,6 +1,7 @@
 # The sources of each library; paths relative to this folder.
 set(DMP_core_SOURCES
   base/eigen_abi.cpp
+  base/error.cpp
   base/parallel.cpp
   geometry/so3.cpp
   model_file/file.cpp

@@ -7,6 +7,10 @@
 #include <dmp/inverse_kinematics.hpp>
 #include <dmp/path_tracking.hpp>
 
+#include <array>
+#include <utility>
+#include <variant>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "options.hpp"
@@ -32,21 +36,71 @@ auto text_of(const Text& (Arm::*get)() const) {
   return [get](const Arm& arm) { return readable((arm.*get)()); };
 }
 
+constexpr std::array<std::pair<const char*, LimitKind>, 5> limit_kinds = {{{"position", LimitKind::position},
+                                                                          {"velocity", LimitKind::velocity},
+                                                                          {"acceleration", LimitKind::acceleration},
+                                                                          {"jerk", LimitKind::jerk},
+                                                                          {"effort", LimitKind::effort}}};
+
+py::dict sources_of(const Arm& arm) {
+  py::dict sources;
+  for (const auto& [name, kind] : limit_kinds) sources[name] = py::tuple(py::cast(arm.limit_sources(kind)));
+  return sources;
+}
+
 // An arm is its URDF and its limits: what another process needs to make the same one.
 py::tuple arm_state(const Arm& arm) {
   return py::make_tuple(py::bytes(arm.urdf()), arm.base(), arm.tip(), arm.folder(), from_vector(arm.lower()),
                         from_vector(arm.upper()), from_vector(arm.velocity_limit()),
-                        from_vector(arm.effort_limit()));
+                        from_vector(arm.effort_limit()), from_vector(arm.acceleration_limit()),
+                        from_vector(arm.jerk_limit()), sources_of(arm));
 }
 
+LimitSources sources_from(const py::dict& named) {
+  LimitSources sources;
+  for (const auto& [name, kind] : limit_kinds)
+    if (named.contains(name))
+      sources[static_cast<std::size_t>(kind)] = named[name].cast<std::vector<LimitSource>>();
+  return sources;
+}
+
+// States of before 0.2 have neither acceleration, jerk nor sources.
 Arm arm_of_state(const py::tuple& state) {
   const auto text = [&](int i) { return state[i].cast<std::string>(); };
   const auto limit = [&](int i) { return to_vector(state[i].cast<Array>(), "limits"); };
-  return Arm::from_urdf(text(0), text(1), text(2), text(3))
-      .with_limits({limit(4), limit(5), limit(6), limit(7)});
+  LimitOverrides limits{limit(4), limit(5), limit(6), limit(7)};
+  if (state.size() > 8) {
+    limits.acceleration = limit(8);
+    limits.jerk = limit(9);
+    limits.sources = sources_from(state[10].cast<py::dict>());
+  }
+  return Arm::from_urdf(text(0), text(1), text(2), text(3)).with_limits(limits);
+}
+
+LimitOverrides overrides_of(const std::optional<Array>& lower, const std::optional<Array>& upper,
+                            const std::optional<Array>& velocity, const std::optional<Array>& effort,
+                            const std::optional<Array>& acceleration, const std::optional<Array>& jerk,
+                            const std::variant<LimitSource, py::dict>& source) {
+  LimitOverrides limits{optional_vector(lower, "lower"),       optional_vector(upper, "upper"),
+                        optional_vector(velocity, "velocity"), optional_vector(effort, "effort"),
+                        optional_vector(acceleration, "acceleration"), optional_vector(jerk, "jerk")};
+  if (const auto* one = std::get_if<LimitSource>(&source)) limits.source = *one;
+  if (const auto* each = std::get_if<py::dict>(&source)) limits.sources = sources_from(*each);
+  return limits;
+}
+
+void bind_limit_source(py::module_& m) {
+  py::native_enum<LimitSource>(m, "LimitSource", "enum.Enum", "Where a joint limit comes from.")
+      .value("unstated", LimitSource::unstated, "Nobody states one: the limit is infinite.")
+      .value("urdf", LimitSource::urdf, "The robot's description.")
+      .value("maker", LimitSource::maker, "The maker's data sheet.")
+      .value("user", LimitSource::user, "The caller.")
+      .value("assumed", LimitSource::assumed, "A usual value, in place of one that nobody states.")
+      .finalize();
 }
 
 void bind_arm(py::module_& m) {
+  bind_limit_source(m);
   py::class_<Arm>(m, "Arm",
                   R"(The serial chain of n free joints from the link `base` to the link `tip` of a robot.
 
@@ -66,18 +120,25 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
             return Arm::from_urdf_file(path.string(), base, tip);
           },
           py::arg("path"), py::arg("base") = "", py::arg("tip") = "",
-          "Read a URDF from a file and keep its folder. Raises FileError if it can not be read.")
+          "Read a URDF from a file and keep its folder. Raises FileError if it cannot be read.")
       .def(
           "with_limits",
           [](const Arm& arm, const std::optional<Array>& lower, const std::optional<Array>& upper,
-             const std::optional<Array>& velocity, const std::optional<Array>& effort) {
-            return arm.with_limits({optional_vector(lower, "lower"), optional_vector(upper, "upper"),
-                                    optional_vector(velocity, "velocity"),
-                                    optional_vector(effort, "effort")});
+             const std::optional<Array>& velocity, const std::optional<Array>& effort,
+             const std::optional<Array>& acceleration, const std::optional<Array>& jerk,
+             const std::variant<LimitSource, py::dict>& source) {
+            return arm.with_limits(
+                overrides_of(lower, upper, velocity, effort, acceleration, jerk, source));
           },
           py::kw_only(), py::arg("lower") = py::none(), py::arg("upper") = py::none(),
           py::arg("velocity") = py::none(), py::arg("effort") = py::none(),
-          "A copy with other joint limits, each of n values; what is None stays.")
+          py::arg("acceleration") = py::none(), py::arg("jerk") = py::none(),
+          py::arg("source") = LimitSource::user,
+          R"(A copy with other joint limits, each of n values; what is None stays.
+
+lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N).
+Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
+`limit_sources` for each joint. Raises InvalidArgument unless lower < upper and all other limits are > 0.)")
       .def_property_readonly("name", text_of(&Arm::name), "Name of the robot.")
       .def_property_readonly("base", text_of(&Arm::base), "Link in whose frame poses are given.")
       .def_property_readonly("tip", text_of(&Arm::tip), "Link whose pose is given.")
@@ -87,14 +148,22 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
       .def_property_readonly("lower", vector_of(&Arm::lower), "(n,) rad or m; -inf for a continuous joint.")
       .def_property_readonly("upper", vector_of(&Arm::upper), "(n,) rad or m; inf for a continuous joint.")
       .def_property_readonly("velocity_limit", vector_of(&Arm::velocity_limit),
-                             "(n,) rad/s or m/s; inf where the URDF states none.")
+                             "(n,) rad/s or m/s; inf where nobody states one.")
       .def_property_readonly("effort_limit", vector_of(&Arm::effort_limit),
-                             "(n,) N m or N; inf where the URDF states none.")
+                             "(n,) N m or N; inf where nobody states one.")
+      .def_property_readonly("acceleration_limit", vector_of(&Arm::acceleration_limit),
+                             "(n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF cannot.")
+      .def_property_readonly("jerk_limit", vector_of(&Arm::jerk_limit),
+                             "(n,) rad/s^3 or m/s^3; inf where nobody states one.")
+      .def_property_readonly(
+          "limit_sources", &sources_of,
+          "Where the limits come from: a tuple of n LimitSource for each of position, velocity, acceleration, "
+          "jerk and effort.")
       .def_property_readonly("warnings", text_of(&Arm::warnings),
-                             "What is doubtful in the URDF, one sentence each.")
+                             "Non-fatal problems of the URDF, one sentence each.")
       .def_property_readonly("urdf", text_of(&Arm::urdf), "The text that was read.")
       .def_property_readonly("folder", text_of(&Arm::folder),
-                             "Folder to which mesh paths are relative; empty if not told.")
+                             "Folder to which mesh paths are relative; empty if unknown.")
       .def(
           "forward_kinematics",
           [](const Arm& arm, const Array& q) -> py::array_t<double> {

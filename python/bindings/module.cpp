@@ -27,6 +27,21 @@ void register_error(pybind11::module_& m, const char* name, PyObject* base) {
   });
 }
 
+/// error.argument: as it was set, else what the message names first.
+void add_argument(const pybind11::object& type) {
+  namespace py = pybind11;
+  const py::object get = py::cpp_function([](const py::object& error) -> py::object {
+    if (py::hasattr(error, "_argument")) return error.attr("_argument");
+    return py::str(dmp::InvalidArgument::argument_of(py::str(error).cast<std::string>()));
+  });
+  const py::object set = py::cpp_function([](const py::object& error, const std::string& argument) {
+    py::setattr(error, "_argument", py::str(argument));
+  });
+  const py::object property = py::module_::import("builtins").attr("property");
+  py::setattr(type, "argument",
+              property(get, set, py::none(), "Name of the argument that cannot be used; empty where it is no one of them."));
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
@@ -35,6 +50,7 @@ PYBIND11_MODULE(_core, m) {
       "Dynamic movement primitives and inverse kinematics: the C++ libraries dmp::core and dmp::kinematics.";
   m.attr("__version__") = DMP_VERSION;
   register_error<dmp::InvalidArgument>(m, "InvalidArgument", PyExc_ValueError);
+  add_argument(m.attr("InvalidArgument"));
   register_error<dmp::FileError>(m, "FileError", PyExc_OSError);
   dmp::python::bind_so3(m);
   dmp::python::bind_demonstration(m);

@@ -50,7 +50,7 @@ def timing() -> Any:
     panda = arms.find("panda")
     time, joints = _wave(7, 3.0)
     path = dmpcpp.JointTrajectory.through(time, joints, panda.joint_names)
-    acceleration = arms.acceleration_limit(panda)
+    acceleration = panda.acceleration_limit
     even = dmpcpp.stretched(path, dmpcpp.duration_factor(path, panda.velocity_limit, acceleration))
     fast = dmpcpp.time_optimal(path, panda.velocity_limit, acceleration)
     page, cells = columns(2, sharey=True)

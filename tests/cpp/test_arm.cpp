@@ -353,6 +353,33 @@ TEST_CASE("with_limits replaces what is given and keeps the rest") {
   CHECK_THROWS_AS(arm.with_limits(bad), dmp::InvalidArgument);
 }
 
+TEST_CASE("Every limit says where it comes from") {
+  using dmp::LimitKind;
+  using dmp::LimitSource;
+  const Arm arm = Arm::from_urdf(arms::two_link());
+  const std::vector<LimitSource> urdf(2, LimitSource::urdf), assumed(2, LimitSource::assumed),
+      unstated(2, LimitSource::unstated);
+  CHECK(arm.limit_sources(LimitKind::position) == urdf);
+  CHECK(arm.limit_sources(LimitKind::velocity) == urdf);
+  CHECK(arm.limit_sources(LimitKind::acceleration) == assumed);
+  CHECK(arm.acceleration_limit() == Eigen::Vector2d::Constant(dmp::assumed_acceleration));
+  CHECK(arm.limit_sources(LimitKind::jerk) == unstated);
+  CHECK(arm.jerk_limit() == Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()));
+
+  dmp::LimitOverrides limits;
+  limits.acceleration = Eigen::Vector2d(4.0, 5.0);
+  limits.jerk = Eigen::Vector2d(6.0, std::numeric_limits<double>::infinity());
+  limits.source = LimitSource::maker;
+  const Arm stated = arm.with_limits(limits);
+  CHECK(stated.acceleration_limit() == Eigen::Vector2d(4.0, 5.0));
+  CHECK(stated.limit_sources(LimitKind::acceleration) == std::vector<LimitSource>(2, LimitSource::maker));
+  CHECK(stated.limit_sources(LimitKind::jerk) ==
+        std::vector<LimitSource>{LimitSource::maker, LimitSource::unstated});
+  CHECK(stated.limit_sources(LimitKind::velocity) == urdf);
+  limits.jerk = Eigen::Vector2d(6.0, 0.0);
+  CHECK_THROWS_WITH_AS(arm.with_limits(limits), doctest::Contains("jerk[1]"), dmp::InvalidArgument);
+}
+
 TEST_CASE("Joints of the wrong number or not finite are refused") {
   const Arm arm = Arm::from_urdf(arms::two_link());
   CHECK_THROWS_AS(arm.forward_kinematics(Eigen::VectorXd(Eigen::VectorXd::Zero(3))), dmp::InvalidArgument);

@@ -300,3 +300,17 @@ TEST_CASE("rotations that are checked, and those of a control loop, which answer
     CHECK(so3::log(so3::exp(v)).allFinite());
   }
 }
+
+TEST_CASE("An error carries the argument that its message names first") {
+  const auto argument = [](const char* message) { return dmp::InvalidArgument(message).argument(); };
+  CHECK(argument("goal[2]: nan, expected a finite number.") == "goal");
+  CHECK(argument("position[0, 1]: 3, expected 2.") == "position");
+  CHECK(argument("options.alpha: -1, expected > 0.") == "options");
+  CHECK(argument("basis_count: 0, expected > 0.") == "basis_count");
+  CHECK(argument("'file.csv': line 3: no number.") == "");
+  CHECK(argument("no way: found") == "");
+  CHECK(argument("hand.csv: unit: unknown.") == "");
+  CHECK(argument("goal[2: nan") == "");
+  CHECK(argument("2nd: x") == "");
+  CHECK(argument("") == "");
+}

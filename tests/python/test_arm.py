@@ -1,5 +1,6 @@
 """Arms from URDFs: PyBullet, which reads the same files by itself, is the oracle."""
 
+import pickle
 from pathlib import Path
 
 import dmpcpp
@@ -95,6 +96,35 @@ def test_limits_can_be_replaced(panda: Arm) -> None:
     np.testing.assert_array_equal(slow.lower, panda.lower)
     with pytest.raises(dmpcpp.InvalidArgument, match=r"velocity\[3\]"):
         panda.with_limits(velocity=[1, 1, 1, 0, 1, 1, 1])
+
+
+def test_limits_name_their_source_joint_by_joint(panda: Arm) -> None:
+    panda = Arm.from_urdf(panda.urdf, panda.base, panda.tip)
+    unstated, user, maker = dmpcpp.LimitSource.unstated, dmpcpp.LimitSource.user, dmpcpp.LimitSource.maker
+    assert set(panda.limit_sources["acceleration"]) == {dmpcpp.LimitSource.assumed}
+    assert set(panda.limit_sources["jerk"]) == {unstated}
+    stated = panda.with_limits(jerk=[5.0] * 6 + [np.inf], acceleration=np.full(7, 3.0))
+    np.testing.assert_array_equal(stated.acceleration_limit, 3.0)
+    assert stated.limit_sources["jerk"] == (user,) * 6 + (unstated,)
+    assert stated.limit_sources["velocity"] == panda.limit_sources["velocity"]
+    mixed = panda.with_limits(effort=np.full(7, 9.0), source={"effort": (maker,) * 3 + (user,) * 4})
+    assert mixed.limit_sources["effort"] == (maker,) * 3 + (user,) * 4
+    with pytest.raises(dmpcpp.InvalidArgument, match=r"jerk\[1\]: 0.*expected > 0"):
+        panda.with_limits(jerk=[1, 0, 1, 1, 1, 1, 1])
+    with pytest.raises(dmpcpp.InvalidArgument, match="source: 3 values, expected 7"):
+        panda.with_limits(effort=np.full(7, 9.0), source={"effort": (maker,) * 3})
+
+
+def test_limits_and_their_sources_go_through_a_pickle(panda: Arm) -> None:
+    stated = panda.with_limits(
+        jerk=np.arange(1.0, 8.0),
+        acceleration=np.full(7, 4.0),
+        source={"jerk": (dmpcpp.LimitSource.maker,) * 7, "acceleration": (dmpcpp.LimitSource.user,) * 7},
+    )
+    copy = pickle.loads(pickle.dumps(stated))
+    assert copy.limit_sources == stated.limit_sources
+    np.testing.assert_array_equal(copy.jerk_limit, stated.jerk_limit)
+    np.testing.assert_array_equal(copy.acceleration_limit, stated.acceleration_limit)
 
 
 def test_errors_about_links_list_those_that_exist() -> None:

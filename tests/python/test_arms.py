@@ -33,9 +33,40 @@ def test_the_iiwas_links_are_those_of_the_r820_that_its_limits_are_taken_from():
     assert arm.forward_kinematics(np.zeros(7))[2, 3] == pytest.approx(0.36 + 0.42 + 0.40 + 0.081, abs=1e-9)
 
 
-def test_accelerations_are_the_makers_or_a_stated_default():
-    assert np.array_equal(arms.acceleration_limit(arms.find("panda")), [15, 7.5, 10, 12.5, 15, 20, 20])
-    assert np.array_equal(arms.acceleration_limit(arms.find("iiwa")), np.full(7, arms.DEFAULT_ACCELERATION))
+def test_limits_live_in_the_arm_and_say_where_they_come_from():
+    panda, iiwa = arms.find("panda"), arms.find("iiwa")
+    assert np.array_equal(panda.acceleration_limit, [15, 7.5, 10, 12.5, 15, 20, 20])
+    assert np.array_equal(panda.jerk_limit, [7500, 3750, 5000, 6250, 7500, 10000, 10000])
+    assert np.array_equal(iiwa.acceleration_limit, np.full(7, arms.DEFAULT_ACCELERATION))
+    assert np.array_equal(iiwa.jerk_limit, np.full(7, np.inf))
+    sources = {name: {source.name for source in each} for name, each in panda.limit_sources.items()}
+    assert sources == {
+        "position": {"urdf"},
+        "velocity": {"urdf"},
+        "acceleration": {"maker"},
+        "jerk": {"maker"},
+        "effort": {"urdf"},
+    }
+    sources = {name: {source.name for source in each} for name, each in iiwa.limit_sources.items()}
+    assert sources == {
+        "position": {"urdf"},
+        "velocity": {"maker"},
+        "acceleration": {"assumed"},
+        "jerk": {"unstated"},
+        "effort": {"maker"},
+    }
+
+
+def test_a_robots_name_brings_no_limits():
+    known = arms.KNOWN["panda"]
+    file = arms.load(arms._pybullet_data() / known.urdf, base=known.base, tip=known.tip)
+    assert file.name == arms.find("panda").name
+    assert np.array_equal(file.acceleration_limit, np.full(7, arms.DEFAULT_ACCELERATION))
+
+
+def test_the_function_of_the_acceleration_limits_is_a_property_now():
+    with pytest.warns(DeprecationWarning, match="arm.acceleration_limit now"):
+        assert np.array_equal(arms.acceleration_limit(arms.find("iiwa")), np.full(7, 10.0))
 
 
 def test_an_unknown_name_is_refused_with_the_names_that_exist():

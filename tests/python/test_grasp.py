@@ -136,7 +136,7 @@ def test_one_model_is_led_to_every_bottle_by_its_goal(planner, held):
 def test_the_plan_keeps_the_limits_of_the_joints_and_its_distance_from_the_bottle(held):
     plan, arm = held.plan, held.arm
     assert (np.abs(plan.joints.velocity) <= arm.velocity_limit).all()
-    assert (np.abs(plan.joints.acceleration) <= arms.acceleration_limit(arm) * (1 + 1e-9)).all()
+    assert (np.abs(plan.joints.acceleration) <= arm.acceleration_limit * (1 + 1e-9)).all()
     assert (plan.joints.position > arm.lower).all() and (plan.joints.position < arm.upper).all()
     assert 0.005 <= plan.clearance <= 0.010
     assert plan.position_error < 1e-5

@@ -83,7 +83,7 @@ def test_a_circle_goes_through_inverse_kinematics_and_both_time_scalings_to_a_so
     poses = np.tile(arm.forward_kinematics(np.array(HOME[name])), (301, 1, 1))
     poses[:, :3, 3] += 0.08 * np.column_stack([np.cos(turn) - 1.0, np.sin(turn), 0.5 * np.sin(turn)])
     joints = InverseKinematics(arm).follow(poses, times=time)
-    joints = stretched(joints, duration_factor(joints, 0.95 * arm.velocity_limit, arms.acceleration_limit(arm)))
+    joints = stretched(joints, duration_factor(joints, 0.95 * arm.velocity_limit, arm.acceleration_limit))
     joints = stretched(joints, max(1.0, simulation.torque_duration_factor(arm, joints)))
     log = simulation.execute(arm, joints)
     assert log.verdict.ok, log.verdict.failed

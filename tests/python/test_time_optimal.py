@@ -102,7 +102,7 @@ def test_an_arm_carries_out_what_is_timed_with_its_efforts(panda):
     middle = 0.5 * (panda.lower + panda.upper)
     joints = JointTrajectory.through(joints.time, middle + 0.3 * joints.position, panda.joint_names)
     fast = dmpcpp.time_optimal(
-        joints, 0.95 * panda.velocity_limit, arms.acceleration_limit(panda), 0.8 * panda.effort_limit, arm=panda
+        joints, 0.95 * panda.velocity_limit, panda.acceleration_limit, 0.8 * panda.effort_limit, arm=panda
     )
     log = simulation.execute(panda, fast)
     assert log.verdict.ok, log.verdict

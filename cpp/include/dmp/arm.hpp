@@ -4,6 +4,7 @@
 #include <dmp/trajectory.hpp>
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,12 +16,34 @@ namespace detail {
 struct ChainModel;
 }
 
-/// Replacements for the joint limits of a URDF, each of n values or absent (then what the arm has stays).
+/// Kinds of joint limits.
+enum class LimitKind { position, velocity, acceleration, jerk, effort };
+
+/// Where a joint limit comes from.
+enum class LimitSource {
+  unstated,  ///< nobody states one: the limit is infinite
+  urdf,      ///< the robot's description
+  maker,     ///< the maker's data sheet
+  user,      ///< the caller
+  assumed    ///< a usual value, in place of one that nobody states
+};
+
+/// Joint acceleration [rad/s^2 or m/s^2] that is assumed where nobody states a limit: a URDF cannot.
+inline constexpr double assumed_acceleration = 10.0;
+
+/// The sources of each kind of limit (indexed by LimitKind), one for each joint.
+using LimitSources = std::array<std::vector<LimitSource>, 5>;
+
+/// Replacements for the joint limits of an arm, each of n values or absent (then what the arm has stays).
 struct LimitOverrides {
   std::optional<Eigen::VectorXd> lower;     ///< rad or m
   std::optional<Eigen::VectorXd> upper;     ///< rad or m
   std::optional<Eigen::VectorXd> velocity;  ///< rad/s or m/s, > 0
   std::optional<Eigen::VectorXd> effort;    ///< N m or N, > 0
+  std::optional<Eigen::VectorXd> acceleration = std::nullopt;  ///< rad/s^2 or m/s^2, > 0
+  std::optional<Eigen::VectorXd> jerk = std::nullopt;          ///< rad/s^3 or m/s^3, > 0
+  LimitSource source = LimitSource::user;  ///< of the values given here; infinite ones are unstated
+  LimitSources sources = {};               ///< in place of `source` where joints differ; else empty
 };
 
 /// The serial chain of n free joints from the link `base` to the link `tip` of a robot.
@@ -33,19 +56,18 @@ class DMP_EXPORT Arm {
  public:
   /// Reads a URDF. `base` "" is the root link; `tip` "" is the only link without children below the base.
   /// Throws InvalidArgument, naming the joint or link, when urdfdom refuses the text; when a link does not
-  /// exist or several could be meant (the message lists them); when tip is not below base; when a joint on
-  /// the way floats, is planar, has no axis, no limits, or lower >= upper; when a mimic joint's master is not
-  /// on the way; when links form a cycle. What can be lived with becomes a line in warnings(). `folder` is
-  /// where mesh paths are relative to.
+  /// exist or several could be meant (the message lists them); when tip is not below base; when a joint
+  /// between base and tip is floating or planar, or has no axis, no limits, or lower >= upper; when a mimic
+  /// joint's master is not between base and tip; when links form a cycle. Non-fatal problems are listed in
+  /// warnings(). Mesh paths are relative to `folder`.
   static Arm from_urdf(const std::string& text, const std::string& base = "", const std::string& tip = "",
                        const std::string& folder = "");
-  /// The same from a file; keeps its folder, to which mesh paths are relative. Throws FileError if it can not
-  /// be read.
+  /// Reads a URDF file; mesh paths are relative to its folder. Throws FileError if it cannot be read.
   static Arm from_urdf_file(const std::string& path, const std::string& base = "",
                             const std::string& tip = "");
 
-  /// A copy with other limits, for a URDF whose own are placeholders or a robot that shall be spared.
-  /// Throws InvalidArgument unless the sizes are n, lower < upper, and velocity and effort are > 0.
+  /// A copy with other limits, for a URDF whose own are placeholders or to run a robot below its limits.
+  /// Throws InvalidArgument unless the sizes are n, lower < upper, and all other limits are > 0.
   Arm with_limits(const LimitOverrides& limits) const;
 
   const std::string& name() const;
@@ -56,10 +78,13 @@ class DMP_EXPORT Arm {
   const Eigen::VectorXd& lower() const;                 ///< (n); -infinity for a continuous joint
   const Eigen::VectorXd& upper() const;                 ///< (n); +infinity for a continuous joint
   const Eigen::VectorXd& velocity_limit() const;        ///< (n) rad/s or m/s; +infinity where none is stated
+  const Eigen::VectorXd& acceleration_limit() const;    ///< (n) rad/s^2 or m/s^2; assumed_acceleration if unstated
+  const Eigen::VectorXd& jerk_limit() const;            ///< (n) rad/s^3 or m/s^3; +infinity where none is stated
   const Eigen::VectorXd& effort_limit() const;          ///< (n) N m or N; +infinity where none is stated
-  const std::vector<std::string>& warnings() const;     ///< what is doubtful in the URDF, one sentence each
+  const std::vector<LimitSource>& limit_sources(LimitKind kind) const;  ///< n, from base to tip
+  const std::vector<std::string>& warnings() const;     ///< non-fatal problems of the URDF, one sentence each
   const std::string& urdf() const;                      ///< the text that was read
-  const std::string& folder() const;                    ///< to which mesh paths are relative; "" if not told
+  const std::string& folder() const;                    ///< to which mesh paths are relative; "" if unknown
 
   /// The pose of the tip in the base frame at the joints q (n), by KDL. Limits are not checked.
   /// Throws InvalidArgument if q has another size or is not finite.

@@ -29,6 +29,20 @@ void replace(Eigen::VectorXd& limit, const std::optional<Eigen::VectorXd>& other
   limit = *other;
 }
 
+void name_sources(LimitSources& sources, LimitKind kind, const std::optional<Eigen::VectorXd>& limit,
+                  const LimitOverrides& overrides) {
+  if (!limit) return;
+  const auto k = static_cast<std::size_t>(kind);
+  const auto& single = overrides.sources[k];
+  if (!single.empty() && single.size() != sources[k].size())
+    throw InvalidArgument("source: " + std::to_string(single.size()) + " values, expected " +
+                          std::to_string(sources[k].size()) + ", one for each joint.");
+  for (std::size_t i = 0; i < sources[k].size(); ++i) {
+    const LimitSource given = single.empty() ? overrides.source : single[i];
+    sources[k][i] = std::isfinite((*limit)[static_cast<Eigen::Index>(i)]) ? given : LimitSource::unstated;
+  }
+}
+
 void check_positive(const Eigen::VectorXd& limit, const std::string& name) {
   for (Eigen::Index i = 0; i < limit.size(); ++i)
     if (!(limit[i] > 0.0))
@@ -61,13 +75,26 @@ Arm Arm::with_limits(const LimitOverrides& limits) const {
   replace(model->lower, limits.lower, "lower");
   replace(model->upper, limits.upper, "upper");
   replace(model->velocity_limit, limits.velocity, "velocity");
+  replace(model->acceleration_limit, limits.acceleration, "acceleration");
+  replace(model->jerk_limit, limits.jerk, "jerk");
   replace(model->effort_limit, limits.effort, "effort");
   for (Eigen::Index i = 0; i < joint_count(); ++i)
     if (!(model->lower[i] < model->upper[i]))
       throw InvalidArgument("lower[" + std::to_string(i) + "]: " + std::to_string(model->lower[i]) +
                             ", expected less than upper = " + std::to_string(model->upper[i]) + ".");
   check_positive(model->velocity_limit, "velocity");
+  check_positive(model->acceleration_limit, "acceleration");
+  check_positive(model->jerk_limit, "jerk");
   check_positive(model->effort_limit, "effort");
+  const auto name = [&](LimitKind kind, const std::optional<Eigen::VectorXd>& limit) {
+    name_sources(model->limit_sources, kind, limit, limits);
+  };
+  name(LimitKind::position, limits.lower);
+  name(LimitKind::position, limits.upper);
+  name(LimitKind::velocity, limits.velocity);
+  name(LimitKind::acceleration, limits.acceleration);
+  name(LimitKind::jerk, limits.jerk);
+  name(LimitKind::effort, limits.effort);
   return Arm(std::move(model));
 }
 
@@ -79,6 +106,11 @@ const std::vector<std::string>& Arm::joint_names() const { return model_->joint_
 const Eigen::VectorXd& Arm::lower() const { return model_->lower; }
 const Eigen::VectorXd& Arm::upper() const { return model_->upper; }
 const Eigen::VectorXd& Arm::velocity_limit() const { return model_->velocity_limit; }
+const Eigen::VectorXd& Arm::acceleration_limit() const { return model_->acceleration_limit; }
+const Eigen::VectorXd& Arm::jerk_limit() const { return model_->jerk_limit; }
+const std::vector<LimitSource>& Arm::limit_sources(LimitKind kind) const {
+  return model_->limit_sources[static_cast<std::size_t>(kind)];
+}
 const Eigen::VectorXd& Arm::effort_limit() const { return model_->effort_limit; }
 const std::vector<std::string>& Arm::warnings() const { return model_->warnings; }
 const std::string& Arm::urdf() const { return model_->urdf; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dmp/arm.hpp>
+
 #include <Eigen/Core>
 #include <kdl/chain.hpp>
 #include <string>
@@ -26,7 +28,8 @@ struct ChainModel {
   std::string urdf;
   std::string folder;
   std::vector<std::string> joint_names;
-  Eigen::VectorXd lower, upper, velocity_limit, effort_limit;
+  Eigen::VectorXd lower, upper, velocity_limit, acceleration_limit, jerk_limit, effort_limit;
+  LimitSources limit_sources;
   std::vector<std::string> warnings;
   KDL::Chain chain;
   std::vector<Coupling> couplings;  ///< one for each joint of the chain

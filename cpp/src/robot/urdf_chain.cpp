@@ -190,9 +190,21 @@ class JointTable {
     }
     model_.velocity_limit = Eigen::Map<const Eigen::VectorXd>(velocity_.data(), n);
     model_.effort_limit = Eigen::Map<const Eigen::VectorXd>(effort_.data(), n);
+    model_.acceleration_limit = Eigen::VectorXd::Constant(n, assumed_acceleration);
+    model_.jerk_limit = Eigen::VectorXd::Constant(n, infinity);
+    model_.limit_sources = {sources(model_.lower.cwiseAbs().cwiseMin(model_.upper.cwiseAbs())), sources(model_.velocity_limit),
+                            std::vector<LimitSource>(ranges_.size(), LimitSource::assumed),
+                            sources(model_.jerk_limit), sources(model_.effort_limit)};
   }
 
  private:
+  static std::vector<LimitSource> sources(const Eigen::VectorXd& limit) {
+    std::vector<LimitSource> found;
+    for (const double value : limit)
+      found.push_back(std::isfinite(value) ? LimitSource::urdf : LimitSource::unstated);
+    return found;
+  }
+
   // The master may go only where the joint that follows it may go too, and only so fast.
   void narrow(const urdf::Joint& joint, const Coupling& coupling) {
     const double m = coupling.multiplier;

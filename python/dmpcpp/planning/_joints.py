@@ -14,7 +14,6 @@ from dmpcpp import simulation
 from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, PoseTrajectory, duration_factor, stretched
 from dmpcpp._typing import Array
 from dmpcpp.planning._placement import Accept
-from dmpcpp.robot.arms import acceleration_limit
 from dmpcpp.simulation import Simulator
 
 __all__ = ["Engine", "Slowed", "Solution", "clear_of_itself", "limit_factor", "slowed", "solve"]
@@ -120,7 +119,7 @@ def solve(
 
 def limit_factor(arm: Arm, joints: JointTrajectory) -> float:
     """Return the smallest factor on the duration with which velocity and acceleration limits hold; may be below 1."""
-    return duration_factor(joints, arm.velocity_limit, acceleration_limit(arm))
+    return duration_factor(joints, arm.velocity_limit, arm.acceleration_limit)
 
 
 def slowed(

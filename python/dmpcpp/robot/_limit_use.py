@@ -10,7 +10,6 @@ import numpy as np
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Series
-from dmpcpp.robot.arms import acceleration_limit
 
 __all__ = ["LimitUse"]
 
@@ -45,7 +44,7 @@ class LimitUse:
             time,
             np.minimum(position - arm.lower, arm.upper - position),
             np.abs(velocity) / arm.velocity_limit,
-            np.abs(acceleration) / acceleration_limit(arm),
+            np.abs(acceleration) / arm.acceleration_limit,
         )
 
     @property

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from dmpcpp import _pybullet_data as _data
-from dmpcpp._core import Arm
+from dmpcpp._core import Arm, LimitSource
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
 DEFAULT_ACCELERATION = 10.0
-"""Joint acceleration limit [rad/s^2] of an arm whose maker states none. A URDF can not state one."""
+"""Joint acceleration limit [rad/s^2] that is assumed where nobody states one."""
 
 
 @dataclass(frozen=True)
@@ -29,8 +28,8 @@ class KnownArm:
         Links between which the arm stands.
     velocity_limit, effort_limit : tuple of float or None
         [rad/s, Nm] of the real machine; None where the URDF holds them already.
-    acceleration_limit : tuple of float or None
-        [rad/s^2]; None where the maker publishes none.
+    acceleration_limit, jerk_limit : tuple of float or None
+        [rad/s^2, rad/s^3]; None where the maker publishes none.
     source : str
         Where the limits come from.
     """
@@ -42,6 +41,7 @@ class KnownArm:
     effort_limit: tuple[float, ...] | None
     acceleration_limit: tuple[float, ...] | None
     source: str
+    jerk_limit: tuple[float, ...] | None = None
 
 
 KNOWN: dict[str, KnownArm] = {
@@ -52,6 +52,7 @@ KNOWN: dict[str, KnownArm] = {
         velocity_limit=None,
         effort_limit=None,
         acceleration_limit=(15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0),
+        jerk_limit=(7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0),
         source="Franka Emika Panda: Franka Control Interface documentation, 'Robot limits' (libfranka).",
     ),
     "iiwa": KnownArm(
@@ -92,7 +93,13 @@ def find(name: str) -> Arm:
         )
     known = KNOWN[name]
     arm = Arm.from_urdf_file(str(_pybullet_data() / known.urdf), base=known.base, tip=known.tip)
-    return arm.with_limits(velocity=known.velocity_limit, effort=known.effort_limit)
+    return arm.with_limits(
+        velocity=known.velocity_limit,
+        effort=known.effort_limit,
+        acceleration=known.acceleration_limit,
+        jerk=known.jerk_limit,
+        source=LimitSource.maker,
+    )
 
 
 def load(name_or_path: str | Path, base: str | None = None, tip: str | None = None) -> Arm:
@@ -114,16 +121,9 @@ def load(name_or_path: str | Path, base: str | None = None, tip: str | None = No
 
 
 def acceleration_limit(arm: Arm) -> Array:
-    """Joint acceleration limits (n,) [rad/s^2]: the maker's if ``KNOWN`` has them, else DEFAULT_ACCELERATION.
-
-    An arm is known by its name and its joints' number: ``panda`` of any base and tip with all joints has
-    Franka's.
-    """
-    for name, known in KNOWN.items():
-        limit = known.acceleration_limit
-        if limit is not None and arm.name == name and arm.joint_count == len(limit):
-            return np.array(limit)
-    return np.full(arm.joint_count, DEFAULT_ACCELERATION)
+    """Return ``arm.acceleration_limit``, which replaces this function. Deprecated since 0.2."""
+    warnings.warn("arms.acceleration_limit(arm) is arm.acceleration_limit now.", DeprecationWarning, stacklevel=2)
+    return arm.acceleration_limit
 
 
 def _pybullet_data() -> Path:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp._atomic import replacing
-from dmpcpp._core import Arm
+from dmpcpp._core import Arm, LimitSource
 from dmpcpp._typing import Array
 from dmpcpp.errors import FileError, InvalidArgument
 from dmpcpp.show.plot import ErrorCurve
@@ -63,6 +64,8 @@ _ARRAYS = (
 )
 _SINGLE = frozenset({"position", "velocity", "torque"})
 _LIMITS = ("lower", "upper", "velocity_limit", "effort_limit")
+_LATER_LIMITS = ("acceleration_limit", "jerk_limit")  # records of before 0.2 have neither these nor sources
+_KINDS = ("position", "velocity", "acceleration", "jerk", "effort")
 
 
 def drawn(count: int) -> NDArray[np.intp]:
@@ -81,7 +84,8 @@ def write_record(path: str | PathLike[str], record: RunRecord) -> None:
     arm = record.arm
     fields = {name: getattr(record, name) for name in _ARRAYS}
     fields = {name: array.astype(np.float32) if name in _SINGLE else array for name, array in fields.items()}
-    fields |= {f"arm_{name}": getattr(arm, name) for name in _LIMITS}
+    fields |= {f"arm_{name}": getattr(arm, name) for name in (*_LIMITS, *_LATER_LIMITS)}
+    fields |= {f"arm_{kind}_source": np.array([s.name for s in each]) for kind, each in arm.limit_sources.items()}
     fields |= {f"arm_{name}": np.array(getattr(arm, name)) for name in ("urdf", "base", "tip", "folder")}
     fields["error_labels"] = np.array([curve.label for curve in record.errors])
     for k, curve in enumerate(record.errors):
@@ -115,8 +119,16 @@ def _record(found: dict[str, NDArray[np.generic]]) -> RunRecord:
     words = {name: str(found[f"arm_{name}"]) for name in ("base", "tip", "folder")}
     arm = Arm.from_urdf(str(found["arm_urdf"]), **words)
     lower, upper, velocity, effort = (np.asarray(found[f"arm_{name}"], dtype=np.float64) for name in _LIMITS)
-    arm = arm.with_limits(lower=lower, upper=upper, velocity=velocity, effort=effort)
+    arm = arm.with_limits(lower=lower, upper=upper, velocity=velocity, effort=effort, **_later_limits(found))
     arrays = {name: np.asarray(found[name], dtype=np.float64) for name in _ARRAYS}
     labels = [str(label) for label in found["error_labels"]]
     errors = tuple(ErrorCurve(label, *found[f"error_{k}"].astype(np.float64)) for k, label in enumerate(labels))
     return RunRecord(arm=arm, errors=errors, **arrays)
+
+
+def _later_limits(found: dict[str, NDArray[np.generic]]) -> dict[str, Any]:
+    if f"arm_{_LATER_LIMITS[0]}" not in found:
+        return {}
+    acceleration, jerk = (np.asarray(found[f"arm_{name}"], dtype=np.float64) for name in _LATER_LIMITS)
+    sources = {kind: tuple(LimitSource[str(name)] for name in found[f"arm_{kind}_source"]) for kind in _KINDS}
+    return {"acceleration": acceleration, "jerk": jerk, "source": sources}
