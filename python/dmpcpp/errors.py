@@ -1,19 +1,22 @@
-"""The errors that dmpcpp raises on purpose; each message says what came, what was expected and what to do."""
+"""The errors that dmpcpp raises on purpose; each message says what came, what was expected and what to do.
+
+``InvalidArgument.argument`` is the name of the argument that cannot be used, "" where it is no one of them.
+"""
 
 from __future__ import annotations
 
 from dmpcpp._core import FileError, IkResult, InvalidArgument, PathReport
 
-__all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency", "NotStated"]
+__all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency", "NotStated", "within"]
 
 
 class IkError(RuntimeError):
-    """``solve`` or ``follow``, asked to be strict, did not meet every pose.
+    """Raised by ``solve`` and ``follow`` with strict=True when a pose was not reached.
 
     Attributes
     ----------
     report : IkResult or PathReport
-        What it did come to, and why not further.
+        The closest that was reached, and why.
     """
 
     def __init__(self, message: str, report: IkResult | PathReport) -> None:
@@ -30,13 +33,23 @@ class MissingDependency(ImportError):
     """An optional package is not installed; the message names the extra that brings it."""
 
 
+def within(place: str, error: InvalidArgument) -> InvalidArgument:
+    """Return the error with a place (a file's name) before its message; it keeps its type and its argument."""
+    if isinstance(error, NotStated):
+        return NotStated(error.names, f"{place}: {error}")
+    found = type(error)(f"{place}: {error}")
+    found.argument = error.argument
+    return found
+
+
 class NotStated(InvalidArgument):
-    """A file does not say something and the caller has to; `names` lists the parameters that do."""
+    """A file lacks a fact that the caller must supply; `names` lists the parameters that supply it."""
 
     def __init__(self, names: str | tuple[str, ...], message: str) -> None:
-        """Take the parameter or parameters, one of which is to be stated, and the message."""
+        """Take the parameter or parameters, one of which must be given, and the message."""
         super().__init__(message)
         self.names = (names,) if isinstance(names, str) else names
+        self.argument = self.names[0]
 
     def __reduce__(self) -> tuple[type[NotStated], tuple[tuple[str, ...], str]]:
         """Go through a pickle with the names."""

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.motion import LONGEST_GAP
@@ -290,7 +291,7 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
 def _assumed(found: Recording | Markers, needed: dict[str, str]) -> dict[str, str]:
     """Return what was taken for granted, but for what is to be stated."""
     assumed = {}
-    if "unit" not in needed and any(note.startswith("no length unit stated") for note in found.history):
+    if "unit" not in needed and any(Note.of(note).about == "unit" for note in found.history):
         assumed["unit"] = "m"
     if "up_axis" not in needed and found.up_axis is None:
         assumed["up_axis"] = "z"

@@ -265,7 +265,7 @@ def test_a_trc_of_an_unknown_unit_asks_for_it_and_a_stated_one_counts(tmp_path):
 def test_a_unit_stated_against_the_files_own_word_is_noted(tmp_path):
     found = recordings.markers(qualisys(tmp_path / "a.tsv"), unit=2e-3)
     np.testing.assert_allclose(found.position, 2e-3 * POINTS)
-    assert "the file says mm, the caller said otherwise" in found.history
+    assert "the file gives mm; the unit specified is used" in found.history
 
 
 def test_the_recorded_trc_reads_although_it_announces_more(recorded):

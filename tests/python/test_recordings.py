@@ -144,7 +144,7 @@ def test_an_unknown_body_is_refused_with_those_that_exist(tmp_path):
 
 def test_a_statement_that_the_format_does_not_take_is_refused(tmp_path):
     path = write_csv(tmp_path / "a.tum", rows(), [], " ")
-    with pytest.raises(InvalidArgument, match="euler_order: the format 'tum' does not take it; it takes: quat_order"):
+    with pytest.raises(InvalidArgument, match="euler_order: the format 'tum' does not take it; it takes quat_order="):
         recordings.load(path, euler_order="ZYX")
 
 
@@ -389,7 +389,7 @@ def test_named_columns_are_found_whatever_stands_between_them(tmp_path, delimite
     assert recordings.bodies(path) == ("pose",)
     recording = recordings.load(path)
     assert_same_motion(recording)
-    assert "no length unit stated: positions taken as metres" in recording.history
+    assert "no length unit given: positions taken as metres" in recording.history
 
 
 def test_the_names_of_the_quaternion_columns_tell_their_order(tmp_path):

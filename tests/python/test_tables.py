@@ -5,7 +5,8 @@ import pytest
 from click.testing import CliRunner
 from dmpcpp import recordings
 from dmpcpp.cli import main
-from dmpcpp.cli._recording_options import in_flags
+from dmpcpp.cli._flags import in_flags
+from dmpcpp.cli._recording_options import NAMES
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._columns import Column, column
 from scipy.spatial.transform import Rotation
@@ -343,7 +344,7 @@ def test_one_marker_is_a_motion_once_its_orientation_is_stated_to_be_fixed(tmp_p
     ],
 )
 def test_messages_name_the_options_of_the_command_line(library, command):
-    assert in_flags(library) == command
+    assert in_flags(library, NAMES) == command
 
 
 def test_a_message_keeps_what_is_no_option_of_the_command():

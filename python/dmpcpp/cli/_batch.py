@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
 from dmpcpp.cli._options import (
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     "--simulator",
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
-    type=click.Choice(["bullet", "mujoco", "both"]),
+    type=engines("both"),
     help="Engine.",
 )
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._tables import note_style
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -169,7 +170,7 @@ def _print(run: Grasp, video: Path | None) -> None:
 
     console = Console(highlight=False)
     for line in run.plan.history:
-        console.print(line, style="dim", soft_wrap=True, markup=False)
+        console.print(line, style=note_style(line), soft_wrap=True, markup=False)
     plan, bottle = run.plan, run.plan.bottle
     place = f"x {bottle.x:.3f}, y {bottle.y:.3f}, z {bottle.height:.3f} m, yaw {math.degrees(bottle.yaw):.1f} deg"
     hand = f"{math.degrees(plan.pitch):.0f} deg down and passes it at {1e3 * plan.clearance:.1f} mm"

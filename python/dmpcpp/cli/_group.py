@@ -12,7 +12,7 @@ from typing import Any
 import click
 
 from dmpcpp import __version__
-from dmpcpp.cli._recording_options import in_flags
+from dmpcpp.cli._flags import flagged, flags_of, in_flags
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
 WRONG_INPUT, FAILED, INTERRUPTED, TERMINATED = 2, 3, 130, 143
@@ -41,13 +41,13 @@ def ended_by_sigterm() -> Iterator[None]:
 
 
 class _Group(click.Group):
-    """Turns errors that a user can mend into one line and an exit status, without a traceback."""
+    """Turns errors that a user can fix into one line and an exit status, without a traceback."""
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
             return super().invoke(ctx)
         except (InvalidArgument, MissingDependency, OSError) as error:
-            click.echo(f"dmpcpp: {in_flags(_said(error), self._options(ctx))}", err=True)
+            click.echo(f"dmpcpp: {self._shown(ctx, error)}", err=True)
             ctx.exit(WRONG_INPUT)
         except KeyboardInterrupt:
             click.echo("dmpcpp: interrupted.", err=True)
@@ -56,13 +56,14 @@ class _Group(click.Group):
             click.echo("dmpcpp: terminated.", err=True)
             ctx.exit(TERMINATED)
 
-    def _options(self, ctx: click.Context) -> set[str]:
-        """Return the names of the options of the command that runs."""
+    def _shown(self, ctx: click.Context, error: Exception) -> str:
+        """Return the message in the words of the command that ran."""
         command = self.get_command(ctx, ctx.invoked_subcommand or "")
-        return {parameter.name or "" for parameter in command.params} if command else set()
+        flags = flags_of(command) if command else {}
+        return flagged(error, flags) if isinstance(error, InvalidArgument) else in_flags(_message(error), flags)
 
 
-def _said(error: Exception) -> str:
+def _message(error: Exception) -> str:
     """Return a message of the library as it is, and one of the system with the file first and without its number."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}."

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._choices import engines, exports
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._options import (
@@ -61,14 +62,14 @@ def _run_options(
                 "--simulator",
                 default=DEFAULT_ENGINE,
                 show_default=SHOWN_ENGINE,
-                type=click.Choice(["bullet", "mujoco", "both"]),
+                type=engines("both"),
                 help="Physics engine; with both the two are compared.",
             ),
             click.option(
                 "--export",
                 "formats",
                 multiple=True,
-                type=click.Choice(["ros2", "ros2-bag", "urscript"]),
+                type=exports(),
                 help="Write what the robot is sent too, once verified: joints.yaml, joints_bag, joints.script. May be "
                 "repeated.",
             ),

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._flags import flag, in_flags
 from dmpcpp.cli._group import FAILED
-from dmpcpp.cli._recording_options import flag, in_flags, recording_options, taken_recording
+from dmpcpp.cli._recording_options import NAMES, recording_options, taken_recording
 from dmpcpp.cli._tables import note_style
 
 if TYPE_CHECKING:
@@ -69,10 +70,10 @@ def _print(found: Inspection) -> None:
         console.print(f"markers beside the bodies (--markers A,B,C): {held}", markup=False, soft_wrap=True)
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
         for name, text in entries.items():
-            said = in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line
+            said = in_flags(text, NAMES).removeprefix(f"{found.source}: ")  # which stands in the first line
             console.print(f"{title}: {flag(name)}: {said}", markup=False, soft_wrap=True)
     for problem in found.problems:
-        console.print(in_flags(problem), style="bold red", markup=False, soft_wrap=True)
+        console.print(in_flags(problem, NAMES), style="bold red", markup=False, soft_wrap=True)
     verdict = "ready to be learned" if found.ok else "not ready to be learned"
     console.print(verdict, style="bold green" if found.ok else "bold red")
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._options import (
@@ -158,7 +159,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     "--simulator",
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
-    type=click.Choice(["bullet", "mujoco", "none"]),
+    type=engines("none"),
     help="In whose geometry the path is looked at for contacts.",
 )
 @click.option(

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
-if TYPE_CHECKING:
-    from dmpcpp.motion import Preparation
-from functools import partial
-
 from dmpcpp._engines import default_engine
+from dmpcpp.cli._flags import flag
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from dmpcpp.motion import Preparation
 
 # Of --simulator.
 DEFAULT_ENGINE = default_engine()
@@ -160,14 +160,14 @@ def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
 
 def _consistent(given: dict[str, Any], no_place: bool) -> None:
     """Refuse options that do not go together."""
-    anchors = [_flag(name) for name in _ANCHORS if name in given]
+    anchors = [flag(name) for name in _ANCHORS if name in given]
     if len(anchors) > 1:
         raise InvalidArgument(f"{' and '.join(anchors)}: expected one anchor.")
     if given and no_place:
-        raise InvalidArgument(f"{_flag(next(iter(given)))}: not together with --no-place.")
+        raise InvalidArgument(f"{flag(next(iter(given)))}: not together with --no-place.")
     if given and not anchors:
         raise InvalidArgument(
-            f"{_flag(next(iter(given)))}: of an anchored motion; state {', '.join(map(_flag, _ANCHORS))}."
+            f"{flag(next(iter(given)))}: of an anchored motion; state {', '.join(map(flag, _ANCHORS))}."
         )
     if ("anchor_shoulder" in given) != ("shoulder" in given):
         raise InvalidArgument("--anchor-shoulder and --shoulder: expected both, where it comes to lie and where it is.")
@@ -189,7 +189,7 @@ def _anchored(anchor: str, given: dict[str, Any], scale: tuple[float, float], se
     tool = given.get("tool_rotation")
     if tool is not None:
         if at.ndim == 2:
-            raise InvalidArgument(f"--tool-rotation: {_flag(anchor)} has an orientation already; state one of the two.")
+            raise InvalidArgument(f"--tool-rotation: {flag(anchor)} has an orientation already; state one of the two.")
         tool = Rotation.from_rotvec(_numbers("tool_rotation", tool, 3), degrees=True).as_matrix()
     yaw = np.radians(given["yaw"]) if "yaw" in given else None
     return partial(anchor_within_reach, at=at, on=on, scale=scale, yaw=yaw, tool_rotation=tool, seed=seed)
@@ -204,7 +204,7 @@ def _numbers(name: str, text: str, *counts: int) -> NDArray[Any]:
         values = np.empty(0)
     if len(values) not in counts or not np.isfinite(values).all():
         expected = " or ".join(map(str, counts))
-        raise InvalidArgument(f"{_flag(name)}: '{text}', expected {expected} numbers such as 0.4,0,0.5.")
+        raise InvalidArgument(f"{flag(name)}: '{text}', expected {expected} numbers such as 0.4,0,0.5.")
     return values
 
 
@@ -219,7 +219,3 @@ def scale_range(text: str | None) -> tuple[float, float]:
         raise InvalidArgument(
             f"--scale: '{text}', expected a number such as 0.5, or a range such as 0.4:0.8."
         ) from None
-
-
-def _flag(name: str) -> str:
-    return "--" + name.replace("_", "-")

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 import click
 
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["flag", "in_flags", "recording_options", "taken_recording"]
+__all__ = ["NAMES", "recording_options", "taken_recording"]
 
 _OPTIONS = (
     click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several."),
@@ -68,7 +67,7 @@ _OPTIONS = (
     ),
     click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0."),
 )
-_NAMES = (
+NAMES = (
     "body",
     "markers",
     "format",
@@ -96,12 +95,8 @@ _NAMES = (
 )
 
 
-_PREPARATION = ("start", "end", "longest_gap", "segment", "repetition", "resample")
+PREPARATION = ("start", "end", "longest_gap", "segment", "repetition", "resample")
 """Parameters of `motion.Preparation` that messages propose."""
-
-_PARAMETER = re.compile(
-    rf"\b(?P<name>{'|'.join((*_NAMES, *_PREPARATION))})=(?P<value>'[^']*'|\{{[^}}]*\}}|\[[^\]]*\]|\.\.\.|-?[\w.+-]*\w)"
-)
 
 
 def recording_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -113,7 +108,7 @@ def recording_options(command: Callable[..., None]) -> Callable[..., None]:
 
 def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
     """Take the options out of a command's arguments: what `recordings.load` and `inspect` take beside the file."""
-    taken = {name: value for name in _NAMES if (value := options.pop(name)) is not None}
+    taken = {name: value for name in NAMES if (value := options.pop(name)) is not None}
     for name in ("unit", "time_unit", "missing"):
         if name in taken:
             taken[name] = _number_or_word(taken[name])
@@ -124,28 +119,6 @@ def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
     if taken.get("delimiter") in ("tab", "\\t"):
         taken["delimiter"] = "\t"
     return taken
-
-
-def flag(parameter: str) -> str:
-    """Return the option that states a parameter of the library: up_axis is --up-axis."""
-    return "--" + parameter.replace("_", "-")
-
-
-def in_flags(message: str, options: Iterable[str] = (*_NAMES, *_PREPARATION)) -> str:
-    """Return a message of the library with parameters as options of the command line: unit='cm' is --unit cm.
-
-    `options` are the names of the options that the command has.
-    """
-    return _PARAMETER.sub(lambda match: _option(match) if match["name"] in options else match[0], message)
-
-
-def _option(match: re.Match[str]) -> str:
-    value = match["value"]
-    if value == "True":
-        return flag(match["name"])
-    if value[0] in "{[":
-        value = re.sub(r"[{}\[\]' ]", "", value).replace(":", "=")
-    return f"{flag(match['name'])} {value.strip(chr(39))}"
 
 
 def _number_or_word(text: str) -> str | float:

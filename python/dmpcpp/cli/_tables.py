@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from dmpcpp._notes import Note
+
 if TYPE_CHECKING:
     from rich.table import Table
 
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 
 def note_style(note: str) -> str:
     """How a line of a recording's history is printed: what warns is not to be overlooked."""
-    return "bold yellow" if note.startswith("WARNING") else "dim"
+    return {"warning": "bold yellow", "assumed": "yellow", "changed": "dim"}[Note.of(note).kind]
 
 
 def way(model: PoseDmp) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from dmpcpp.cli._choices import engines
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE, arm_options
 from dmpcpp.cli._tables import checks_table
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     "--simulator",
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
-    type=click.Choice(["bullet", "mujoco", "none"]),
+    type=engines("none"),
     help="In whose geometry the executed path is looked at for contacts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the tables.")

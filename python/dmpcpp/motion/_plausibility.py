@@ -7,6 +7,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Recording, jumps
@@ -35,8 +36,11 @@ def plausible(recording: Recording) -> Recording:
     extent, angle = _covered(recording, ~recording.missing)
     if extent < _STILL_POSITION and angle > _TURNS:
         return recording.with_(
-            f"WARNING: moves over {1e3 * extent:.2g} mm only and turns by {np.degrees(angle):.0f} deg: is the unit of "
-            "its lengths right?"
+            Note(
+                "warning",
+                f"moves over {1e3 * extent:.2g} mm only and turns by {np.degrees(angle):.0f} deg: is the unit of its "
+                "lengths right?",
+            )
         )
     return recording
 

@@ -158,8 +158,6 @@ def anchor_within_reach(
     note = reach(found, recording, arm).describe()
     if found.start is None:
         note += "; no candidate could be followed from end to end"
-    if recording.up_axis is None:
-        note += "; up axis not stated: z taken"
     return replace(found, note=note)
 
 

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
 from dmpcpp._core import JointTrajectory
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings import Axis, Recording
@@ -114,8 +115,10 @@ class Placement:
     def apply_to(self, recording: Recording) -> Recording:
         """Carry a recording over; its history says how."""
         placed = self.apply(motion.poses(recording))
+        if recording.up_axis is None:
+            recording = recording.with_(Note("assumed", f"no up axis given: {self.up_axis} taken", about="up_axis"))
         return recording.with_(
-            self.describe(),
+            Note("changed", self.describe()),
             position=placed[:, :3, 3],
             rotation=Rotation.from_matrix(placed[:, :3, :3]).as_matrix(),  # rounding of the product taken out
             up_axis="z",

@@ -97,8 +97,6 @@ def place(
     best = search.improved(max(found, key=lambda carried: carried.worth), random, scale)
     followed = "" if len(search.time) >= len(recording) else f" (followed at {len(search.time)})"
     note = f"carries all {len(recording)} samples{followed}, {best.summary} ({candidates} candidates, seed {seed})"
-    if recording.up_axis is None:
-        note += "; up axis not stated: z taken"
     return replace(best.placement, note=note)
 
 

@@ -18,6 +18,7 @@ from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
+from dmpcpp._notes import Note
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._formats.arrays import read_arrays as read_arrays
 from dmpcpp.recordings._formats.deepmimic import clip_names, clip_path
@@ -37,6 +38,7 @@ from dmpcpp.recordings._statement import Stated
 
 __all__ = [
     "Markers",
+    "Note",
     "Recording",
     "Stated",
     "bodies",

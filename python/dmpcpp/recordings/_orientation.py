@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 
@@ -221,7 +222,7 @@ def _renormalised(name: str, off: Array) -> list[str]:
         return []
     k = int(np.argmax(off))
     note = f"{name}: renormalised, off by at most {off[k]:.2g} (frame {k})"
-    return [f"warning: {note}" if off[k] > WARN_ABOVE else note]
+    return [Note("warning" if off[k] > WARN_ABOVE else "changed", note)]
 
 
 def _matrices(wxyz: Array) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
-from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.errors import InvalidArgument, NotStated, within
 from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._statement import Stated
@@ -53,17 +53,15 @@ class Reader:
         """Refuse what was stated although the format does not take it."""
         for name in stated.names():
             if name not in self.takes:
-                takes = ", ".join(self.takes) or "nothing"
-                raise InvalidArgument(f"{name}: the format {self.name!r} does not take it; it takes: {takes}.")
+                takes = ", ".join(f"{taken}=..." for taken in self.takes) or "nothing"
+                raise InvalidArgument(f"{name}: the format {self.name!r} does not take it; it takes {takes}.")
 
     def call(self, function: Callable[..., _T], path: Path, *arguments: object) -> _T:
         """Call one of the reader's functions so that its complaints begin with the file's name."""
         try:
             return function(path, *arguments)
-        except NotStated as error:
-            raise NotStated(error.names, f"{path.name}: {error}") from None
         except InvalidArgument as error:
-            raise InvalidArgument(f"{path.name}: {error}") from None
+            raise within(path.name, error) from None
 
 
 def marker_reader(

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 
@@ -44,7 +45,7 @@ class Recording:
         Where it comes from, usually a file name.
     up_axis : "x", "y", "z" or None
         The world axis that points up; None when neither the format nor the caller said it.
-    history : tuple of str
+    history : tuple of Note
         What was done to the data on the way here, one sentence a step, oldest first.
 
     Raises
@@ -61,7 +62,7 @@ class Recording:
     body: str = "body"
     source: str = ""
     up_axis: Axis | None = None
-    history: tuple[str, ...] = ()
+    history: tuple[str, ...] = ()  # of Note: plain text counts as something that was changed
     channels: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -69,7 +70,7 @@ class Recording:
         object.__setattr__(self, "time", _owned("time", self.time))
         object.__setattr__(self, "position", _owned("position", self.position))
         object.__setattr__(self, "rotation", _owned("rotation", self.rotation))
-        object.__setattr__(self, "history", tuple(self.history))
+        object.__setattr__(self, "history", tuple(map(Note.of, self.history)))
         object.__setattr__(self, "channels", {name: _owned(name, values) for name, values in self.channels.items()})
         _check_shapes(self.time, self.position, self.rotation)
         _check_time(self.time)

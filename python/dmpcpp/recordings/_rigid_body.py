@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._markers import Markers
@@ -220,5 +221,6 @@ def _found(residual: Array) -> list[str]:
     if len(known):
         rms = float(np.sqrt(np.mean(known**2)))
         text = f"markers lie {1e3 * rms:.3g} mm rms from the rigid body, at most {1e3 * known.max():.3g} mm"
-        notes.append(f"warning: {text}: do they sit on one body?" if rms > _WORTH_A_WARNING else text)
+        doubtful = rms > _WORTH_A_WARNING
+        notes.append(Note("warning", f"{text}: do they sit on one body?") if doubtful else Note("changed", text))
     return notes

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._recording import MIN_SAMPLES, Axis
@@ -92,23 +93,29 @@ class Frame:
         """Return the rotations (T, 3, 3), right-handed."""
         return rotation if self.mirror is None else self.mirror[:, None] * rotation * self.mirror
 
-    def notes(self, time: Array) -> list[str]:
-        """Return what was converted and what was taken for granted."""
+    def notes(self, time: Array) -> list[Note]:
+        """Return what was converted and what was assumed."""
         notes = []
         if self.unit is None:
-            notes.append("no length unit stated: positions taken as metres")
+            notes.append(Note("assumed", "no length unit given: positions taken as metres", about="unit"))
         elif self.unit != "m":
-            notes.append(f"positions converted from {_called(self.unit, 'm')} to m")
+            notes.append(Note("changed", f"positions converted from {_called(self.unit, 'm')} to m"))
         if self.stated_unit is not None and self.world.unit not in (None, self.stated_unit):
-            notes.append(f"the file says {_called(self.world.unit, 'm')}, the caller said otherwise")
+            notes.append(Note("changed", f"the file gives {_called(self.world.unit, 'm')}; the unit specified is used"))
         if self.time_unit not in (None, "s"):
-            notes.append(f"times converted from {_called(self.time_unit, 's')} to s")
+            notes.append(Note("changed", f"times converted from {_called(self.time_unit, 's')} to s"))
         if time[0] != 0.0:
-            notes.append(f"time counted from the first sample at {float(time[0]) * self.clock:.9g} s")
+            notes.append(Note("changed", f"time counted from the first sample at {float(time[0]) * self.clock:.9g} s"))
         if self.hand_assumed:
-            notes.append("taken: handedness: right (logs of Unity and of most headsets are left-handed)")
+            notes.append(
+                Note(
+                    "assumed",
+                    "taken: handedness: right (logs of Unity and of most headsets are left-handed)",
+                    about="handedness",
+                )
+            )
         if self.mirror is not None:
-            notes.append(f"left-handed world mirrored along {'xyz'[int(np.argmin(self.mirror))]}")
+            notes.append(Note("changed", f"left-handed world mirrored along {'xyz'[int(np.argmin(self.mirror))]}"))
         return notes
 
     def check_step(self, time: Array) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from dmpcpp._text import Row, data_lines, number, read_text, split_all
 from dmpcpp._typing import Array
-from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.errors import FileError, InvalidArgument, within
 from dmpcpp.verification._joint_log import JointLog
 from dmpcpp.verification._ros_log import read_bag
 
@@ -73,7 +73,7 @@ def read_log(
             return read_bag(path, topic, joints)
         return _read_csv(path, _TIME_UNITS[time_unit], _ANGLE_UNITS[angle_unit])
     except InvalidArgument as error:
-        raise InvalidArgument(f"{path.name}: {str(error).removeprefix(f'{path.name}: ')}") from None
+        raise error if str(error).startswith(f"{path.name}: ") else within(path.name, error) from None
 
 
 def _read_csv(path: Path, second: float, radian: float) -> JointLog:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
+from dmpcpp.errors import FileError, InvalidArgument, MissingDependency, within
 from dmpcpp.verification._joint_log import JointLog
 
 Stamped = tuple[int, Any]
@@ -103,7 +103,7 @@ def _opened(path: Path) -> Iterator[Any]:
         with AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as reader:
             yield reader
     except InvalidArgument as error:
-        raise InvalidArgument(f"{path.name}: {error}") from None
+        raise within(path.name, error) from None
     except OSError as error:
         raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
     except Exception as error:  # the package meets a damaged bag with many types of exception

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from dmpcpp._notes import Note
 from dmpcpp._text import Cells, Row, number, read_text, split_all
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
@@ -51,7 +52,9 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     rotation, position = _world_pose(joints, body, motion.cells)
     up_axis, told = _up_axis(joints, motion.cells, stated)
     count = len(motion.cells.rows)
-    notes = [] if count == motion.announced else [f"warning: {motion.announced} frames announced, {count} there"]
+    notes = (
+        [] if count == motion.announced else [Note("warning", f"{motion.announced} frames announced, {count} there")]
+    )
     return stated.recording(
         time=motion.step * np.arange(count),
         position=position,

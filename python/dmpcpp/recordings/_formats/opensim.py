@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from dmpcpp._notes import Note
 from dmpcpp._text import Cells, Row, read_text, split_all
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._pose_columns import pose, stated_columns
@@ -98,7 +99,7 @@ def _columns(row: tuple[int, list[str]], stated: Stated) -> dict[str, int]:
 def _notes(facts: dict[str, str], count: int) -> list[str]:
     announced = facts.get("nrows", "")
     if announced.isdigit() and int(announced) != count:
-        return [f"warning: the header announces {announced} rows, the file holds {count}"]
+        return [Note("warning", f"the header announces {announced} rows, the file holds {count}")]
     return []
 
 

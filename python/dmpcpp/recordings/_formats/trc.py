@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from dmpcpp._notes import Note
 from dmpcpp._text import Cells, Row, data_lines, read_text, split_all
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._markers import Markers, distinct
@@ -62,7 +63,7 @@ def _names(heads: list[str], columns: list[str], line: int) -> tuple[str, ...]:
 def _notes(facts: dict[str, str], count: int) -> list[str]:
     announced = facts.get("NumFrames", "")
     if announced.isdigit() and int(announced) != count:
-        return [f"warning: the header announces {announced} frames, the file holds {count}"]
+        return [Note("warning", f"the header announces {announced} frames, the file holds {count}")]
     return []
 
 
