@@ -9,7 +9,7 @@ packages).
 
 The rule for feasible paths: the joints pass through four random postures on a cubic spline with ends at rest, inside
 90 % of every range; each posture lies the share `reach` of the way from the one before to a uniformly random one (0.35
-easy, 0.8 hard). Only the tip's 1000 poses over 10 s are given, and no start. The rule for poses that can not be met
+easy, 0.8 hard). Only the tip's 1000 poses over 10 s are given, and no start. The rule for poses that cannot be met
 stands in benchmarks.kinematics_causes.
 """
 

@@ -1,4 +1,4 @@
-"""Poses that can not be met, with the cause known by construction; see benchmarks.kinematics.
+"""Poses that cannot be met, with the cause known by construction; see benchmarks.kinematics.
 
 - beyond: further from the base than 200,000 random joints without limits come, by a tenth or more;
 - limits: reached by joints without limits, and by none within them that 500 restarts find;

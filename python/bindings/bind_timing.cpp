@@ -48,7 +48,7 @@ void bind_timing(py::module_& m) {
 Velocity [rad/s] and acceleration limits [rad/s^2], (n,) each, are looked at between the samples too; effort limits (n,)
 [N m], for which the arm is needed, at the samples, by KDL's inverse dynamics with `gravity` (3,) [m/s^2] in the base
 frame. 0 if nothing moves. Raises InvalidArgument for limits of other sizes or signs, or an effort with which the arm
-can not stand still.)");
+cannot stand still.)");
   m.def("stretched", &stretched, py::arg("joints"), py::arg("factor"),
         "The same path, `factor` times as long from the same first time.");
   m.def("time_optimal", &timed, py::arg("joints"), py::arg("velocity_limit"), py::arg("acceleration_limit"),
@@ -59,7 +59,7 @@ can not stand still.)");
 Velocity [rad/s] and acceleration limits [rad/s^2], (n,) each, hold everywhere on the C2 spline that is returned;
 effort limits (n,) [N m], for which the arm is needed, at its samples, by KDL's inverse dynamics with `gravity` (3,)
 [m/s^2] in the base frame. Reachability analysis (TOPP-RA: Pham and Pham, IEEE Trans. Robotics 34(3), 2018). Raises
-InvalidArgument for limits of other sizes or signs, or an effort with which the arm can not stand still.)");
+InvalidArgument for limits of other sizes or signs, or an effort with which the arm cannot stand still.)");
 }
 
 }  // namespace dmp::python

@@ -46,7 +46,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
             beside.unlink(missing_ok=True)
         _flush(target.parent)
     except OSError as error:
-        raise FileError(f"{target}: can not be written ({error.strerror or error}).") from error
+        raise FileError(f"{target}: cannot be written ({error.strerror or error}).") from error
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:

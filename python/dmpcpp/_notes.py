@@ -40,7 +40,7 @@ class Note(str):
 
     @staticmethod
     def of(line: str) -> Note:
-        """Return a note as it is; text by the word that it begins with: WARNING, or "taken: unit: " of an assumption."""
+        """Return a note as it is; text by how it begins: "WARNING: ", or "taken: unit: " for an assumption."""
         if isinstance(line, Note):
             return line
         if line.lower().startswith("warning:"):

@@ -28,7 +28,7 @@ def read_bytes(path: Path, size: int = -1) -> bytes:
         with path.open("rb") as file:
             return file.read(size)
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
 
 
 def read_text(path: Path) -> str:

@@ -1,4 +1,4 @@
-"""What is installed, what is not, and what each part is for."""
+"""Checks the installation: what is installed, what is missing, what each part is for."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ _STAND_INS: dict[str, Any] = {
 
 TAKEN = "taken: "
 """What notes of a history begin with that name an assumption: `taken: NAME: what`."""
-_JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn can not be told from its reverse
+_JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn cannot be recognised from its reverse
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,8 @@ class BodyReport:
     `noise_position` and `noise_angle` are standard deviations along and about one axis, see `motion.noise`; `extent` is
     the range along x, y and z; `missing` counts samples that the file marks as lost, `skipped` those that were never
     written, see `motion.skipped`; `jumps` counts turns of more than 90 deg between neighbouring samples; `steps` are
-    the least, the usual (median) and the largest time from one sample to the next. `implausible` says why this can not
-    be the motion of a hand, see `motion.implausible`. `refused` says why the body can not be read, and then nothing
+    the least, the usual (median) and the largest time from one sample to the next. `implausible` says why this cannot
+    be the motion of a hand, see `motion.implausible`. `refused` says why the body cannot be read, and then nothing
     else is known.
     """
 
@@ -194,7 +194,7 @@ def _beside(reader: Reader, path: Path, said: Stated) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Attempt(Generic[_T]):
-    """What a reader came to, where need be with stand-ins for what is to be stated, to see what else is.
+    """Result of a trial read; missing facts get placeholders so that all of them are found at once.
 
     `result` is None where nothing can stand in, or where it is `refused`.
     """

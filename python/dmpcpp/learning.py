@@ -227,7 +227,7 @@ def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, sm
     Raises
     ------
     InvalidArgument
-        There is none, or one that can not be learned or is no motion of a hand (`motion.plausible`).
+        There is none, or one that cannot be learned or is no motion of a hand (`motion.plausible`).
     """
     if not recordings:
         raise InvalidArgument("recordings: none, expected at least one.")

@@ -182,7 +182,7 @@ def test_models_go_through_files_and_pickles_bit_for_bit(tmp_path):
 
 
 def test_a_file_that_is_missing_or_no_model_says_so(tmp_path):
-    with pytest.raises(dmpcpp.FileError, match=r"nowhere.json: can not be read: No such file"):
+    with pytest.raises(dmpcpp.FileError, match=r"nowhere.json: cannot be read: No such file"):
         dmpcpp.load(tmp_path / "nowhere.json")
     (tmp_path / "text.json").write_text("hello")
     with pytest.raises(InvalidArgument, match=r"text.json: model: not readable as JSON"):
@@ -206,7 +206,7 @@ def test_a_model_is_shared_between_threads():
 def test_recorded_poses_are_reproduced(recorded):
     """Hand-guided pouring and box opening, 9 demonstrations each.
 
-    Their orientations were recorded in steps of up to a degree, which 100 kernels can not and should not follow.
+    Their orientations were recorded in steps of up to a degree, which 100 kernels cannot and should not follow.
     """
     shares, angles = [], []
     for name in ("pouring", "openbox"):
@@ -367,7 +367,7 @@ def test_what_is_no_field_or_no_enumerator_is_refused_by_name(fields, message):
 
 
 def test_a_message_about_a_name_that_is_no_text_can_be_read():
-    with pytest.raises(dmpcpp.FileError, match=r"xff.json: can not be read"):
+    with pytest.raises(dmpcpp.FileError, match=r"xff.json: cannot be read"):
         dmpcpp.load(b"/no/such/\xff.json")
-    with pytest.raises(dmpcpp.FileError, match=r"xff.urdf: can not be read"):
+    with pytest.raises(dmpcpp.FileError, match=r"xff.urdf: cannot be read"):
         dmpcpp.Arm.from_urdf_file("/no/such/\udcff.urdf")

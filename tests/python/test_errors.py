@@ -68,4 +68,4 @@ def test_an_error_of_the_system_is_said_with_its_file_and_without_its_number(tmp
     with pytest.raises(OSError) as missing:
         (tmp_path / "none").read_text()
     assert group._message(missing.value) == f"{tmp_path}/none: No such file or directory."
-    assert group._message(FileError("a.json: can not be read.")) == "a.json: can not be read."
+    assert group._message(FileError("a.json: cannot be read.")) == "a.json: cannot be read."

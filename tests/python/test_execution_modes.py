@@ -64,7 +64,7 @@ def test_a_constant_load_leaves_its_weight_over_the_stiffness_and_the_integral_t
 
 def test_the_integral_stands_still_while_the_torque_is_clipped():
     arm = Arm.from_urdf(PENDULUM.format(ixx=0.02), base="base", tip="rod").with_limits(effort=[7.0])
-    raised = reach(arm, [0.3], 1.0, home=[1.4])  # held horizontally the rod weighs 7.85 Nm: it can not be lifted
+    raised = reach(arm, [0.3], 1.0, home=[1.4])  # held horizontally the rod weighs 7.85 Nm: it cannot be lifted
     log = simulation.execute(arm, raised, kp=400.0, kd=40.0, ki=4000.0, settle=2.0)
     inertia, stuck = 0.35, log.desired_position[-1, 0] - log.position[-1, 0]
     assert abs(log.torque_demand[-1, 0]) < 7.85 + inertia * (400.0 * abs(stuck) + 4000.0 * 0.2)

@@ -110,7 +110,7 @@ def test_a_damaged_joint_file_is_refused_with_its_line(tmp_path):
     path.write_text("")
     with pytest.raises(InvalidArgument, match="line 1"):
         export.read_joints(path)
-    with pytest.raises(FileError, match=r"no\.csv: can not be read"):
+    with pytest.raises(FileError, match=r"no\.csv: cannot be read"):
         export.read_joints(tmp_path / "no.csv")
 
 
@@ -188,6 +188,6 @@ def test_a_new_file_gets_the_permissions_of_any_new_file(tmp_path):
 def test_a_place_that_can_not_be_written_is_a_file_error(tmp_path, where):
     (tmp_path / "file").write_text("")
     (tmp_path / "folder").mkdir()
-    with pytest.raises(FileError, match="can not be written"):
+    with pytest.raises(FileError, match="cannot be written"):
         atomic.write_text(tmp_path / where, "text")
     assert names_in(tmp_path) == ["file", "folder"]

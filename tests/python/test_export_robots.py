@@ -76,9 +76,9 @@ def test_the_bag_holds_one_message_on_the_topic_and_is_never_written_over(tmp_pa
         export.read_ros2_bag(tmp_path / "bag", "/other")
     with pytest.raises(FileError, match="there already"):
         export.write_ros2_bag(tmp_path / "bag", reach())
-    with pytest.raises(FileError, match="can not be"):
+    with pytest.raises(FileError, match="cannot be"):
         export.write_ros2_bag(tmp_path / "no" / "bag", reach())
-    with pytest.raises(FileError, match="can not be read"):
+    with pytest.raises(FileError, match="cannot be read"):
         export.read_ros2_bag(tmp_path / "nowhere")
     assert [path.name for path in tmp_path.iterdir()] == ["bag"]
 

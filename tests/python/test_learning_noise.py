@@ -95,14 +95,14 @@ def test_a_take_that_does_not_belong_to_the_others_is_named():
     assert "--leave-out 3" in checks[0].detail and "take2" in checks[0].detail
 
 
-def test_by_default_gaps_and_outliers_are_mended_and_nothing_else():
+def test_by_default_gaps_and_outliers_are_filled_and_nothing_else():
     recording = screw()
     assert prepare(recording) is recording
     position = recording.position.copy()
     position[100] += 0.2
-    mended = prepare(lose(recording.with_("hit", position=position), 50, 51))
-    np.testing.assert_allclose(mended.position, recording.position, atol=1e-3)
-    assert [line.split(" ")[1] for line in mended.history[2:]] == ["gaps", "outliers", "gaps"]
+    corrected = prepare(lose(recording.with_("hit", position=position), 50, 51))
+    np.testing.assert_allclose(corrected.position, recording.position, atol=1e-3)
+    assert [line.split(" ")[1] for line in corrected.history[2:]] == ["gaps", "outliers", "gaps"]
     kept = prepare(recording.with_("hit", position=position), Preparation(outliers=False))
     np.testing.assert_array_equal(kept.position, position)
 

@@ -1,4 +1,4 @@
-"""Lost samples and outliers: what is filled is close to the truth, what can not be known is refused or cut out."""
+"""Lost samples and outliers: what is filled is close to the truth, what cannot be known is refused or cut out."""
 
 import numpy as np
 import pytest

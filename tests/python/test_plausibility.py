@@ -1,4 +1,4 @@
-"""What can not be the motion of a hand is refused before anything is searched, and inspection says so."""
+"""What cannot be the motion of a hand is refused before anything is searched, and inspection says so."""
 
 from pathlib import Path
 

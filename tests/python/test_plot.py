@@ -79,10 +79,10 @@ def test_a_picture_leaves_pyplot_and_its_settings_alone(tmp_path):
 
 
 def test_a_file_that_can_not_be_written_leaves_nothing_behind(tmp_path):
-    with pytest.raises(FileError, match="can not be written: No such file or directory"):
+    with pytest.raises(FileError, match="cannot be written: No such file or directory"):
         draw(tmp_path / "missing" / "picture.png")
     (tmp_path / "folder.png").mkdir()
-    with pytest.raises(FileError, match=r"folder\.png: can not be written"):
+    with pytest.raises(FileError, match=r"folder\.png: cannot be written"):
         draw(tmp_path / "folder.png")
     assert [entry.name for entry in tmp_path.iterdir()] == ["folder.png"]
 

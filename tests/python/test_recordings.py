@@ -113,7 +113,7 @@ def test_a_recording_refuses_bad_data_and_names_the_place(changes, message):
 
 
 def test_a_missing_file_is_a_file_error_with_its_path(tmp_path):
-    with pytest.raises(FileError, match=r"nix\.csv: can not be read \(No such file"):
+    with pytest.raises(FileError, match=r"nix\.csv: cannot be read \(No such file"):
         recordings.load(tmp_path / "nix.csv")
 
 
@@ -125,7 +125,7 @@ def test_a_folder_is_a_file_error(tmp_path):
 def test_an_unknown_format_and_one_that_can_not_be_told_list_the_formats(tmp_path):
     path = tmp_path / "words.txt"
     path.write_text("these are words\n")
-    with pytest.raises(InvalidArgument, match=r"can not be told(.*\n)+  arrays .*\n(.*\n)+  tum "):
+    with pytest.raises(InvalidArgument, match=r"cannot be told(.*\n)+  arrays .*\n(.*\n)+  tum "):
         recordings.load(path)
     with pytest.raises(InvalidArgument, match=r"format: 'xml', expected one of:(.*\n)+  tum "):
         recordings.load(path, format="xml")
@@ -281,7 +281,7 @@ def test_sign_flips_between_frames_leave_the_motion_untouched(clips, tmp_path):
     flipped = recordings.load(written(tmp_path, frames), "right_hand")
     np.testing.assert_array_equal(flipped.rotation, plain.rotation)
     np.testing.assert_array_equal(flipped.position, plain.position)
-    assert "root quaternion: sign flips mended: 2 (the first at frame 30)" in flipped.history
+    assert "root quaternion: sign flips fixed: 2 (the first at frame 30)" in flipped.history
 
 
 def test_the_hands_orientation_is_the_forearms_and_the_history_says_so(clips):

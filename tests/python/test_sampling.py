@@ -1,4 +1,4 @@
-"""A rate that is stated stands in place of what the file says, and the history tells what was left aside."""
+"""A rate that is stated stands in place of what the file says, and the history says what was left aside."""
 
 import numpy as np
 import pytest

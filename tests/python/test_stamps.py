@@ -135,10 +135,10 @@ def test_a_first_column_without_a_name_is_the_time_if_it_can_be_no_row_number(tm
 
 def test_takes_below_each_other_are_chosen_and_never_sorted_into_each_other(tmp_path):
     path = table(tmp_path / "a.csv", [*map(float, TIME), *map(float, TIME)], np.concatenate([TIME, TIME + 1.0]))
-    for stated in ({}, {"mend_times": True}):
+    for stated in ({}, {"sort_times": True}):
         with pytest.raises(NotStated, match="2 takes or episodes.*episode=0 to episode=1") as error:
             recordings.load(path, **stated)
-        assert "mend_times" not in str(error.value)
+        assert "sort_times" not in str(error.value)
     found = recordings.load(path, episode=1)
     np.testing.assert_allclose(found.position, position(TIME + 1.0), atol=1e-15)
 

@@ -161,7 +161,7 @@ def test_numbers_without_names_are_to_be_named_by_number(tmp_path):
     rows = ROWS[:, [1, 2, 3, 4, 5, 6, 7, 0]]
     with pytest.raises(NotStated, match="line 1: 8 numbers and no line above that names them. Specify what each"):
         recordings.load(write(tmp_path / "a.csv", rows, header=[]))
-    with pytest.raises(NotStated, match="can not be told. It looks like a table of 8 columns: state columns="):
+    with pytest.raises(NotStated, match="cannot be recognised. It looks like a table of 8 columns: state columns="):
         recordings.load(write(tmp_path / "a.txt", rows, header=[]))
     columns = {name: (place + 7) % 8 for place, name in enumerate(HEADER)}
     assert_same_motion(recordings.load(tmp_path / "a.txt", columns=columns))
@@ -221,11 +221,11 @@ def test_a_sample_written_twice_counts_once(tmp_path):
     assert "12 samples that were written twice left out (the first: 1)" in recording.history
 
 
-def test_times_that_do_not_increase_are_refused_unless_they_may_be_mended(tmp_path):
+def test_times_that_do_not_increase_are_refused_unless_they_may_be_sorted(tmp_path):
     path = write(tmp_path / "a.csv", ROWS[::-1])
-    with pytest.raises(InvalidArgument, match=r"time\[1\]: 1 after 1.1, expected strictly increasing.*mend_times=True"):
+    with pytest.raises(InvalidArgument, match=r"time\[1\]: 1 after 1.1, expected strictly increasing.*sort_times=True"):
         recordings.load(path)
-    recording = recordings.load(path, mend_times=True)
+    recording = recordings.load(path, sort_times=True)
     assert_same_motion(recording)
     assert "samples sorted by their times, 11 steps back in time" in recording.history
     again = ROWS[:, :].copy()
@@ -233,10 +233,10 @@ def test_times_that_do_not_increase_are_refused_unless_they_may_be_mended(tmp_pa
     path = write(tmp_path / "b.csv", again)
     with pytest.raises(InvalidArgument, match=r"time\[5\]: 0.4 after 0.4"):
         recordings.load(path)
-    mended = recordings.load(path, mend_times=True)
-    assert len(mended) == 11
-    np.testing.assert_allclose(mended.position[4], POSITIONS[4])
-    assert "1 samples at the time of another left out" in mended.history
+    corrected = recordings.load(path, sort_times=True)
+    assert len(corrected) == 11
+    np.testing.assert_allclose(corrected.position[4], POSITIONS[4])
+    assert "1 samples at the time of another left out" in corrected.history
 
 
 def test_times_whose_digits_were_cut_off_are_recognised(tmp_path):
@@ -337,7 +337,7 @@ def test_one_marker_is_a_motion_once_its_orientation_is_stated_to_be_fixed(tmp_p
     [
         ("State unit='cm', 'm' or a number.", "State --unit cm, 'm' or a number."),
         ("state missing=-9999.", "state --missing -9999."),
-        ("State mend_times=True to sort", "State --mend-times to sort"),
+        ("State sort_times=True to sort", "State --sort-times to sort"),
         ("columns={'time': 0, 'x': 1, ..., 'qw': 7}.", "--columns time=0,x=1,...,qw=7."),
         ("one rigid body, markers=['a', 'b'].", "one rigid body, --markers a,b."),
         ("other=3, rated=5", "other=3, rated=5"),
@@ -357,5 +357,5 @@ def test_the_commands_take_what_tables_need_stated(tmp_path):
     refused = runner.invoke(main, ["inspect", str(path)])
     assert refused.exit_code == 3 and "--fixed-orientation" in refused.output
     refused = runner.invoke(main, ["inspect", str(path), "--fixed-orientation"])
-    assert refused.exit_code == 2 and "Specify --mend-times" in refused.output
-    assert runner.invoke(main, ["inspect", str(path), "--fixed-orientation", "--mend-times"]).exit_code == 0
+    assert refused.exit_code == 2 and "Specify --sort-times" in refused.output
+    assert runner.invoke(main, ["inspect", str(path), "--fixed-orientation", "--sort-times"]).exit_code == 0

@@ -17,8 +17,8 @@ PLAN = ("plan", "model.json", "--simulator", "none")
 
 # What is typed, the argument that is named, what came, what was expected or what to do.
 WRONG = {
-    "no such recording": (("fit", "nowhere.bvh"), "nowhere.bvh", "can not be read", "No such file"),
-    "no recording": (("fit", "text.bvh", "--unit", "cm"), "text.bvh", "format can not be told", "State --format"),
+    "no such recording": (("fit", "nowhere.bvh"), "nowhere.bvh", "cannot be read", "No such file"),
+    "no recording": (("fit", "text.bvh", "--unit", "cm"), "text.bvh", "format cannot be told", "State --format"),
     "quaternions in an order unheard of": (("fit", "hand.npz", "--quat-order", "abcd"), "quat_order", "abcd", "wxyz"),
     "quaternions of no order": (("fit", "hand.npz"), "quat_order", "hand.npz", "State"),
     "a unit unheard of": ((*FIT, "--unit", "ell"), "unit", "ell", "expected"),
@@ -34,7 +34,7 @@ WRONG = {
     "a scale for no arm": ((*FIT, "--scale", "0.5"), "--scale", "without --arm", "State --arm"),
     "an arm unheard of": ((*PLAN, "--arm", "ur99"), "arm", "ur99", "panda"),
     "an arm with links that it has": ((*PLAN, "--tip", "hand"), "tip", "panda", ".urdf"),
-    "a URDF that is not there": ((*PLAN, "--arm", "no.urdf"), "no.urdf", "no.urdf", "can not"),
+    "a URDF that is not there": ((*PLAN, "--arm", "no.urdf"), "no.urdf", "no.urdf", "cannot"),
     "a link that is not there": (("check-urdf", "arm.urdf", "--tip", "nose"), "nose", "nose", ""),
     "a goal of two numbers": ((*PLAN, "--goal", "1,2"), "--goal", "2 number(s)", "x,y,z"),
     "a goal in words": ((*PLAN, "--goal", "there"), "--goal", "there", "such as"),
@@ -51,10 +51,10 @@ WRONG = {
         (*PLAN, "--out", "/proc/dmpcpp"),
         "--out",
         "/proc/dmpcpp",
-        "can not be written",
+        "cannot be written",
     ),
     "results into a file": ((*PLAN, "--out", "hand.npz"), "--out", "hand.npz", "file"),
-    "a config that is not there": (("fit", "--config", "no.toml"), "--config", "no.toml", "can not be read"),
+    "a config that is not there": (("fit", "--config", "no.toml"), "--config", "no.toml", "cannot be read"),
     "a config that is none": (("fit", "--config", "text.bvh"), "--config", "text.bvh", "not TOML"),
     "a config of another command": (("plan", "--config", "fit.toml"), "--config", "[fit]", "[plan]"),
     "a config with a slip": (("fit", "--config", "fit.toml"), "--config", "basis-cuont", "Did you mean 'basis-count'"),

@@ -29,7 +29,7 @@ DMP_EXPORT JointTrajectory time_optimal(const JointTrajectory& joints, const Tim
 
 /// The same with the effort that `arm` needs at each sample, by KDL's inverse dynamics (recursive
 /// Newton-Euler with the URDF's inertias; joints beside the way from base to tip stand at 0, friction is
-/// none). `gravity` [m/s^2] in the base frame. Throws InvalidArgument also if the arm can not even stand
+/// none). `gravity` [m/s^2] in the base frame. Throws InvalidArgument also if the arm cannot even stand
 /// still at a sample.
 DMP_EXPORT JointTrajectory time_optimal(const Arm& arm, const JointTrajectory& joints,
                                         const TimingLimits& limits,

@@ -17,7 +17,7 @@ DMP_EXPORT double duration_factor(const JointTrajectory& joints, const Eigen::Ve
 
 /// The same with the effort that `arm` needs at each sample, by KDL's inverse dynamics (as time_optimal
 /// counts it) with `gravity` [m/s^2] in the base frame; `effort_limit` (n) N m or N, > 0, infinity for none.
-/// Throws InvalidArgument also if the arm can not even stand still at a sample.
+/// Throws InvalidArgument also if the arm cannot even stand still at a sample.
 DMP_EXPORT double duration_factor(const Arm& arm, const JointTrajectory& joints,
                                   const Eigen::VectorXd& velocity_limit,
                                   const Eigen::VectorXd& acceleration_limit,

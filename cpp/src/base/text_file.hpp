@@ -15,10 +15,10 @@ namespace dmp::detail {
 constexpr std::size_t kLargestFile = 64u << 20;
 
 [[noreturn]] inline void fail(const std::string& path, const std::string& action) {
-  throw FileError(path + ": can not " + action + ": " + std::strerror(errno) + ".");
+  throw FileError(path + ": cannot " + action + ": " + std::strerror(errno) + ".");
 }
 
-/// A whole file. Throws FileError for what can not be read or is no file (a folder, a device, a pipe),
+/// A whole file. Throws FileError for what cannot be read or is no file (a folder, a device, a pipe),
 /// InvalidArgument, with what was `expected`, for more than 64 MiB.
 inline std::string read_text(const std::string& path, const char* expected) {
   if (path.find('\0') != std::string::npos) throw FileError("path: holds a byte of zero, expected a name.");

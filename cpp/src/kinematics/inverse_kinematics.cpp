@@ -46,7 +46,7 @@ const char* name_of(IkStatus status) {
 InverseKinematics::Solver::Solver(Arm arm_, const IkOptions& options_)
     : arm(std::move(arm_)), options(options_), search(arm.model(), options), chain(arm.model()) {}
 
-// Whether the arm stands where it can not set out for the target, or has come there.
+// Whether the arm stands where it cannot set out for the target, or has come there.
 bool InverseKinematics::Solver::stuck(const detail::Frame& target, const detail::Joints& q) const {
   detail::Jacobian jacobian;
   const detail::PoseGoal& goal = search.lm().goal();

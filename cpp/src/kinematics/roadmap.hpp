@@ -19,7 +19,7 @@ struct RoadmapSize {
 /// Joints for a path by way of a layered graph: each layer holds many joints that meet one pose, an edge
 /// joins two of neighbouring layers that are close, and the shortest way through is walked. (Descartes,
 /// ROS-Industrial; edges are examined only when the shortest way uses them, as in the lazy PRM of Bohlin and
-/// Kavraki, ICRA 2000.) It finds what tracking can not: a null space that must be moved in time, so that a
+/// Kavraki, ICRA 2000.) It finds what tracking cannot: a null space that must be moved in time, so that a
 /// later pose is met within the limits.
 class Roadmap {
  public:

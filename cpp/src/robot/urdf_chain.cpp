@@ -26,7 +26,7 @@ void check_kind(const urdf::Joint& joint) {
   if (joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR ||
       joint.type == urdf::Joint::UNKNOWN)
     refuse(joint,
-           "floating, planar and unknown joints can not stand between base and tip; choose another base.");
+           "floating, planar and unknown joints cannot stand between base and tip; choose another base.");
 }
 
 // URDF asks for a unit axis and urdfdom takes any. To Bullet the length is a factor on a prismatic joint.

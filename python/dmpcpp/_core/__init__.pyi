@@ -1331,7 +1331,7 @@ class Arm:
     @staticmethod
     def from_urdf_file(path: os.PathLike | str | bytes, base: str = '', tip: str = '') -> Arm:
         """
-        Read a URDF from a file and keep its folder. Raises FileError if it can not be read.
+        Read a URDF from a file and keep its folder. Raises FileError if it cannot be read.
         """
     def __getstate__(self) -> tuple:
         ...
@@ -2000,7 +2000,7 @@ def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[nu
     Velocity [rad/s] and acceleration limits [rad/s^2], (n,) each, are looked at between the samples too; effort limits (n,)
     [N m], for which the arm is needed, at the samples, by KDL's inverse dynamics with `gravity` (3,) [m/s^2] in the base
     frame. 0 if nothing moves. Raises InvalidArgument for limits of other sizes or signs, or an effort with which the arm
-    can not stand still.
+    cannot stand still.
     """
 def frechet(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
     """
@@ -2050,7 +2050,7 @@ def time_optimal(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy
     Velocity [rad/s] and acceleration limits [rad/s^2], (n,) each, hold everywhere on the C2 spline that is returned;
     effort limits (n,) [N m], for which the arm is needed, at its samples, by KDL's inverse dynamics with `gravity` (3,)
     [m/s^2] in the base frame. Reachability analysis (TOPP-RA: Pham and Pham, IEEE Trans. Robotics 34(3), 2018). Raises
-    InvalidArgument for limits of other sizes or signs, or an effort with which the arm can not stand still.
+    InvalidArgument for limits of other sizes or signs, or an effort with which the arm cannot stand still.
     """
 @typing.overload
 def to_json(model: Dmp) -> str:

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     help="Engine.",
 )
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")
-@click.option("--reports", is_flag=True, help="Make each run's report.html too.")
+@click.option("--reports", is_flag=True, help="Also write each run's report.html.")
 @click.option(
     "--out",
     default="dmpcpp-batch",

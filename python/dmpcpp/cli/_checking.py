@@ -13,13 +13,13 @@ from dmpcpp.cli._group import FAILED
 
 @click.command("check-urdf")
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--base", metavar="LINK", help="Where the arm begins; the root unless given.")
-@click.option("--tip", metavar="LINK", help="The link that follows the motion; the only leaf unless given.")
+@click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root).")
+@click.option("--tip", metavar="LINK", help="Link that follows the motion (default: the URDF's only leaf).")
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON instead of the table.")
 def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> None:
-    """Name every defect of FILE, a URDF, that the loader, the planner and the physics would meet.
+    """List every defect of FILE, a URDF, that affects loading, planning or physics.
 
-    Exit status: 0 none, 2 the file can not be read, 3 there are some.
+    Exit status: 0 none, 2 the file cannot be read, 3 there are some.
 
     Example: dmpcpp check-urdf my_robot.urdf --base base_link --tip tool0
     """
@@ -45,7 +45,7 @@ def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> 
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON instead of the table.")
 def doctor(as_json: bool) -> None:
-    """Check the installation, and say what to install for what.
+    """Check the installation and list what is missing.
 
     Exit status: 0 the main job (`dmpcpp demo`) can be done, 3 something that it needs is missing.
 

@@ -29,7 +29,7 @@ def configurable(command: click.Command) -> click.Command:
             is_eager=True,
             expose_value=False,
             callback=_take,
-            help="Take arguments and options from this file's table of the command's name; options stated here win.",
+            help="Read arguments and options from this file's table named after the command; options given here win.",
         )
     )
     return command
@@ -79,7 +79,7 @@ def _keys(command: click.Command) -> dict[str, str]:
 
 
 def _require_type(context: click.Context, parameter: click.Parameter, value: Any, where: str) -> None:
-    """Refuse what click would stumble over; what it refuses itself it says with the name of the option."""
+    """Refuse what click would fail on; what it refuses itself it says with the name of the option."""
     try:
         parameter.type_cast_value(context, value)
     except click.UsageError:
@@ -92,7 +92,7 @@ def _table(path: Path, command: str) -> dict[str, Any]:
     try:
         found = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise FileError(f"--config: {path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"--config: {path}: cannot be read ({error.strerror or error}).") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InvalidArgument(f"--config: {path}: not TOML ({error}).") from None
     table = found.get(command)

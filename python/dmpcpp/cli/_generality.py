@@ -21,19 +21,19 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.option("-k", "--count", default=20, show_default=True, type=click.IntRange(1), help="Random motions.")
-@click.option("--arm", "arms", multiple=True, metavar="NAME|FILE.urdf", help="Repeatable; panda and iiwa unless given.")
+@click.option("-k", "--count", default=20, show_default=True, type=click.IntRange(1), help="Number of random motions.")
+@click.option("--arm", "arms", multiple=True, metavar="NAME|FILE.urdf", help="Repeatable (default: panda and iiwa).")
+@click.option("--noise", "noises", multiple=True, metavar="LEVEL", help="none, low, high; repeatable (default: all).")
 @click.option(
-    "--noise", "noises", multiple=True, metavar="LEVEL", help="none, low, high; repeatable, all unless given."
+    "--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of motions, changes and noise."
 )
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of motions, changes and noise.")
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option(
     "--out",
     default="dmpcpp-generality",
     show_default=True,
     type=click.Path(file_okay=False, path_type=Path),
-    help="Folder for trials.jsonl and summary.json; trials that it holds are not made again.",
+    help="Folder for trials.jsonl and summary.json; trials that it holds are not repeated.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
 def generality(

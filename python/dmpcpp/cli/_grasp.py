@@ -25,13 +25,24 @@ if TYPE_CHECKING:
 
 def _bottle_options(command: Callable[..., None]) -> Callable[..., None]:
     options = (
-        click.option("--x", type=float, metavar="M", help="Where the bottle stands in front of the robot; 0.5."),
-        click.option("--y", type=float, metavar="M", help="Where it stands to the robot's left; 0."),
-        click.option("--yaw", type=float, metavar="DEG", help="From where the hand shall come; 0 is straight ahead."),
-        click.option("--height", type=float, metavar="M", help="Of what the bottle stands on; 0.25, 0 is the floor."),
-        click.option("--mass", type=float, metavar="KG", help="Of the bottle; 0.3."),
-        click.option("--friction", type=float, metavar="MU", help="Of the bottle; 0.8. It multiplies the fingers' 1."),
-        click.option("--seed", type=click.IntRange(0), help="Draw place, yaw and 4 mm of misjudgement at random."),
+        click.option(
+            "--x", type=float, metavar="M", help="Distance of the bottle in front of the robot (default: 0.5)."
+        ),
+        click.option("--y", type=float, metavar="M", help="Distance of the bottle to the robot's left (default: 0)."),
+        click.option("--yaw", type=float, metavar="DEG", help="Approach direction; 0 is straight ahead (default: 0)."),
+        click.option(
+            "--height", type=float, metavar="M", help="Height of the support; 0 is the floor (default: 0.25)."
+        ),
+        click.option("--mass", type=float, metavar="KG", help="Mass of the bottle (default: 0.3)."),
+        click.option(
+            "--friction",
+            type=float,
+            metavar="MU",
+            help="Friction coefficient of the bottle, times the fingers' 1 (default: 0.8).",
+        ),
+        click.option(
+            "--seed", type=click.IntRange(0), help="Random seed: draws place, yaw and a position error of 4 mm."
+        ),
     )
     for option in reversed(options):
         command = option(command)
@@ -43,14 +54,14 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
         click.option(
             "--recording", type=click.Path(path_type=Path), metavar="FILE", help="A reach of your own, in any format."
         ),
-        click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several."),
+        click.option("--body", metavar="NAME", help="Body whose motion is used; required if the file holds several."),
         click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table, arrays; by default its own."),
         click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it."),
         click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times."),
         click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
         click.option("--up-axis", metavar="x|y|z", help="The recording's axis that points up."),
-        click.option("--start", type=float, metavar="S", help="The reach begins here; found by itself unless given."),
-        click.option("--end", type=float, metavar="S", help="The reach ends here."),
+        click.option("--start", type=float, metavar="S", help="Start of the reach [s] (default: found)."),
+        click.option("--end", type=float, metavar="S", help="End of the reach [s]."),
     )
     for option in reversed(options):
         command = option(command)

@@ -73,7 +73,7 @@ def _message(error: Exception) -> str:
 @click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="dmpcpp")
 def main() -> None:
-    """A person's motion, learned as a dynamic movement primitive and carried out by a robot arm under physics."""
+    """Learn a recorded hand motion as a dynamic movement primitive and execute it on a simulated robot arm."""
 
 
 def refuse_file(out: Path) -> None:
@@ -88,4 +88,4 @@ def refuse_file(out: Path) -> None:
     try:
         tempfile.TemporaryFile(dir=nearest).close()  # not all that permits it can do it: /proc
     except OSError as error:
-        raise InvalidArgument(f"--out: '{out}' can not be written: {error.strerror} in '{nearest}'.") from None
+        raise InvalidArgument(f"--out: '{out}' cannot be written: {error.strerror} in '{nearest}'.") from None

@@ -53,29 +53,28 @@ def _run_options(
                 default=0,
                 show_default=True,
                 type=click.IntRange(0),
-                help="Of the search for a placement.",
+                help="Random seed of the placement search.",
             ),
             click.option(
-                "--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed."
+                "--basis-count",
+                type=click.IntRange(1, 100000),
+                help="Number of kernels (default: as many as the motion needs).",
             ),
             click.option(
                 "--simulator",
                 default=DEFAULT_ENGINE,
                 show_default=SHOWN_ENGINE,
                 type=engines("both"),
-                help="Physics engine; with both the two are compared.",
+                help="Physics engine; both: run and compare the two.",
             ),
             click.option(
                 "--export",
                 "formats",
                 multiple=True,
                 type=exports(),
-                help="Write what the robot is sent too, once verified: joints.yaml, joints_bag, joints.script. May be "
-                "repeated.",
+                help="Also write a robot program if verified: joints.yaml, joints_bag, joints.script. Repeatable.",
             ),
-            click.option(
-                "--no-report", is_flag=True, help="Do not make report.html; `dmpcpp report` can make it later."
-            ),
+            click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
         for option in reversed(options):
@@ -87,11 +86,11 @@ def _run_options(
 
 @click.command()
 @click.option("--clip", default=_DEMO["clip"], show_default=True, help="One of the clips that ship with PyBullet.")
-@click.option("--body", default=_DEMO["body"], show_default=True, help="Whose motion.")
+@click.option("--body", default=_DEMO["body"], show_default=True, help="Body whose motion is used.")
 @arm_options
 @_run_options(None, "dmpcpp-demo, followed by the clip, body and arm that were stated otherwise")
 def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
-    """Show the main job on a human motion that every installation has.
+    """Run `dmpcpp imitate` on a human motion that ships with PyBullet.
 
     Example: dmpcpp demo --clip dance_b --arm iiwa --out dance
     """
@@ -124,7 +123,7 @@ def imitate(
     tip: str | None,
     **options: Any,
 ) -> None:
-    """Carry out the motion in FILE, a recording in any of the formats that `dmpcpp inspect` lists.
+    """Execute the motion in FILE, a recording in any format that `dmpcpp inspect` reads.
 
     Example: dmpcpp imitate session.csv --body hand --unit mm --arm panda --out session
     """
@@ -156,7 +155,7 @@ def _carry_out(
     from dmpcpp import export, imitation
 
     refuse_file(out)
-    export.chosen(formats, arm)  # what can not be written is refused before anything runs
+    export.chosen(formats, arm)  # what cannot be written is refused before anything runs
     with _progress(as_json) as progress:
         run = imitation.imitate(
             recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
@@ -183,7 +182,7 @@ def _report(out: Path) -> str | None:
     try:
         report.write(out)
     except MissingDependency as error:
-        (out / "report.html").unlink(missing_ok=True)  # an older one would tell of another run
+        (out / "report.html").unlink(missing_ok=True)  # an older one describes another run
         return str(error)
     return None
 
@@ -259,7 +258,7 @@ def _reason(run: Imitation) -> str:
 
 
 def _how(run: Imitation) -> str:
-    """By what it was judged, and what that can not see."""
+    """Engine, control mode and caveats."""
     engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
     return f"{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
 

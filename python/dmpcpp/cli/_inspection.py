@@ -31,11 +31,11 @@ _JITTER = 0.5  # of the usual step; a shorter one is worth a word
 @recording_options
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON (m, s, rad) instead of the tables.")
 def inspect(file: Path, as_json: bool, **options: Any) -> None:
-    """Say what FILE holds: bodies or markers, rate, gaps, jumps, noise, extent, and what is still to be stated.
+    """Show what FILE holds: bodies or markers, rate, gaps, jumps, noise, extent, and what is missing.
 
     FILE is a recording: BVH, C3D, TRC, MOT, ROS bag or MCAP, Qualisys TSV, Motive, Vicon, EuRoC or Aria CSV, TUM, a
-    table, .npy or .npz, a DeepMimic clip. Exit status: 0 it can be learned as it is, 2 it can not be read, 3 something
-    is to be stated or to be mended first.
+    table, .npy or .npz, a DeepMimic clip. Exit status: 0 ready to be learned, 2 unreadable, 3 something must be
+    specified or fixed first.
 
     Example: dmpcpp inspect lift.c3d --markers WRIST,STYLr,STYLu
     """

@@ -38,11 +38,15 @@ if TYPE_CHECKING:
 @click.option(
     "--arm", metavar="NAME|FILE.urdf", help="Place the first recording in this arm's workspace, the others with it."
 )
-@click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given.")
-@click.option("--tip", metavar="LINK", help="The link of a URDF that follows the motion; its only leaf unless given.")
-@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions in the arm's workspace, or its range; 0.25:1.")
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the search for a placement.")
-@click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed.")
+@click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root).")
+@click.option("--tip", metavar="LINK", help="Link that follows the motion (default: the URDF's only leaf).")
+@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1).")
+@click.option(
+    "--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the placement search."
+)
+@click.option(
+    "--basis-count", type=click.IntRange(1, 100000), help="Number of kernels (default: as many as the motion needs)."
+)
 @click.option(
     "--leave-out",
     multiple=True,
@@ -148,19 +152,24 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
 @click.option(
     "--goal",
     metavar="X,Y,Z[,QX,QY,QZ,QW]",
-    help="Where to end [m], in the arm's base frame; as demonstrated unless given.",
+    help="End point [m] in the arm's base frame (default: as demonstrated).",
 )
 @click.option(
-    "--duration", type=float, metavar="S", help="As demonstrated unless given; longer where limits ask for it."
+    "--duration",
+    type=float,
+    metavar="S",
+    help="Duration [s] (default: as demonstrated); extended if joint limits require it.",
 )
-@click.option("--exact-duration", is_flag=True, help="Never take longer: a check fails where limits ask for it.")
-@click.option("--from-joints", metavar="Q1,Q2,..", help="Where the arm stands [rad]; searched unless given.")
+@click.option(
+    "--exact-duration", is_flag=True, help="Never extend the duration; a check fails if joint limits are exceeded."
+)
+@click.option("--from-joints", metavar="Q1,Q2,..", help="Start joints [rad] (default: searched).")
 @click.option(
     "--simulator",
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
     type=engines("none"),
-    help="In whose geometry the path is looked at for contacts.",
+    help="Physics engine that checks the path for contacts.",
 )
 @click.option(
     "--out",
@@ -183,7 +192,7 @@ def plan(
     out: Path,
     as_json: bool,
 ) -> None:
-    """Lead the motion in MODEL, a model file, to a goal in a time, and write the joints of an arm for it.
+    """Plan the motion in MODEL, a model file, to a goal and duration, and write joints for an arm.
 
     Checked are inverse kinematics, joint limits and contacts of the arm with itself and the floor; `dmpcpp imitate`
     executes under physics as well. Where a check fails there is no joints.csv.

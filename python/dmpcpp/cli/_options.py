@@ -30,13 +30,13 @@ def arm_options(command: Callable[..., None]) -> Callable[..., None]:
             default="panda",
             show_default=True,
             metavar="NAME|FILE.urdf",
-            help="panda, iiwa, xarm6, or a URDF.",
+            help="A known arm (panda, iiwa, xarm6) or a URDF file.",
         ),
-        click.option("--base", metavar="LINK", help="Where the arm of a URDF begins; its root unless given."),
+        click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root)."),
         click.option(
             "--tip",
             metavar="LINK",
-            help="The link of a URDF that follows the motion; its only leaf unless given.",
+            help="Link that follows the motion (default: the URDF's only leaf).",
         ),
     )
     for option in reversed(options):
@@ -47,8 +47,8 @@ def arm_options(command: Callable[..., None]) -> Callable[..., None]:
 def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options to a command; `taken_preparation` takes them out of its arguments."""
     options = (
-        click.option("--start", type=float, default=0.0, metavar="S", help="Use the motion from here [s]."),
-        click.option("--end", type=float, metavar="S", help="Use the motion up to here [s]."),
+        click.option("--start", type=float, default=0.0, metavar="S", help="Start of the motion [s]."),
+        click.option("--end", type=float, metavar="S", help="End of the motion [s]."),
         click.option(
             "--longest-gap",
             type=click.FloatRange(0, min_open=True),
@@ -57,33 +57,33 @@ def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
             metavar="S",
             help="Fill gaps in the recording up to this long [s]; refuse longer ones.",
         ),
-        click.option("--keep-outliers", is_flag=True, help="Do not replace samples far from where they should be."),
+        click.option("--keep-outliers", is_flag=True, help="Keep outliers."),
         click.option(
             "--segment",
             type=click.IntRange(1),
             metavar="K",
-            help="Use the K-th part between rests only, counted from 1.",
+            help="Use only the K-th segment between rests, counted from 1.",
         ),
         click.option(
             "--repetition",
             type=click.IntRange(1),
             metavar="K",
-            help="Use the K-th whole cycle (away from where the hand starts and back) only, counted from 1.",
+            help="Use only the K-th whole cycle (away from the start and back), counted from 1.",
         ),
         click.option(
-            "--resample", type=click.FloatRange(0, min_open=True), metavar="HZ", help="Sample at this even rate."
+            "--resample", type=click.FloatRange(0, min_open=True), metavar="HZ", help="Resample at this rate."
         ),
         click.option(
             "--low-pass",
             type=click.FloatRange(0, min_open=True),
             metavar="HZ",
-            help="Remove what is faster (zero-phase Butterworth).",
+            help="Low-pass cutoff (zero-phase Butterworth).",
         ),
         click.option(
             "--smooth/--no-smooth",
             default=None,
-            help="Take the noise out that is found in the recording, or never do; by default where it is learned and "
-            "needs it.",
+            help="Smooth the recording, or never smooth it (default: smooth when measurement noise would "
+            "disturb learning).",
         ),
     )
     for option in reversed(options):
@@ -112,30 +112,30 @@ _POINT, _POSE = "X,Y,Z", "X,Y,Z[,RX,RY,RZ]"
 def placing_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options to a command; `taken_placing` takes them out of its arguments."""
     options = (
-        click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame."),
+        click.option("--no-place", is_flag=True, help="Use the poses as tip poses in the arm's base frame."),
         click.option(
             "--scale",
             metavar="S|MIN:MAX",
-            help="Scale of positions in the arm's workspace, or its range; 0.25:1 unless given.",
+            help="Scale of positions, or its range (default: 0.25:1).",
         ),
         click.option(
             "--anchor-start",
             metavar=_POSE,
-            help="Where the motion begins [m, arm's base frame]; with a rotation vector [deg] the tool's orientation "
-            "there too.",
+            help="Start point of the motion [m, arm's base frame]; with a rotation vector [deg] also the tool's "
+            "orientation there.",
         ),
-        click.option("--anchor-goal", metavar=_POSE, help="Where it ends, likewise."),
+        click.option("--anchor-goal", metavar=_POSE, help="Goal of the motion, likewise."),
         click.option(
             "--anchor-shoulder",
             metavar=_POINT,
-            help="Where the person's shoulder comes to lie [m, arm's base frame]; needs --shoulder.",
+            help="Position of the person's shoulder [m, arm's base frame]; needs --shoulder.",
         ),
-        click.option("--shoulder", metavar=_POINT, help="Where it is in the recording [m]."),
-        click.option("--yaw", type=float, metavar="DEG", help="Turn of an anchored motion; searched unless given."),
+        click.option("--shoulder", metavar=_POINT, help="Position of the shoulder in the recording [m]."),
+        click.option("--yaw", type=float, metavar="DEG", help="Yaw of an anchored motion (default: searched)."),
         click.option(
             "--tool-rotation",
             metavar="RX,RY,RZ",
-            help="Rotation vector [deg] of the tool in the hand of an anchored motion; searched unless given.",
+            help="Rotation vector [deg] of the tool in the hand of an anchored motion (default: searched).",
         ),
     )
     for option in reversed(options):

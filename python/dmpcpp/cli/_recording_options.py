@@ -12,11 +12,9 @@ from dmpcpp.errors import InvalidArgument
 __all__ = ["NAMES", "recording_options", "taken_recording"]
 
 _OPTIONS = (
-    click.option("--body", metavar="NAME", help="Whose motion; needed where the file holds several."),
+    click.option("--body", metavar="NAME", help="Body whose motion is used; required if the file holds several."),
     click.option("--markers", metavar="A,B,C", help="Markers on one rigid body, three or more, for files of markers."),
-    click.option(
-        "--format", "format", metavar="NAME", help="The file's format; by default told from its name and content."
-    ),
+    click.option("--format", "format", metavar="NAME", help="File format (default: recognised from name and content)."),
     click.option("--unit", metavar="m|cm|mm|in|F", help="Unit of lengths; a number is metres per unit."),
     click.option("--time-unit", metavar="s|ms|us|ns|F", help="Unit of times; a number is seconds per unit."),
     click.option(
@@ -39,32 +37,33 @@ _OPTIONS = (
         "--dataset", metavar="PATH[,PATH]", help="Arrays that hold the poses: one, or position and orientation."
     ),
     click.option("--up-axis", "--up", metavar="x|y|z", help="The recording's axis that points up."),
-    click.option("--handedness", metavar="right|left", help="Of the recording's world; right unless given."),
+    click.option("--handedness", metavar="right|left", help="Handedness of the recording's frame (default: right)."),
     click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
     click.option(
         "--euler-order", metavar="ORDER", help="Of columns rx, ry, rz: ZYX moving axes, zyx fixed ones, or rotvec."
     ),
-    click.option("--angle-unit", metavar="deg|rad", help="Of columns rx, ry, rz."),
-    click.option("--missing", metavar="empty|nan|WORD|N", help="How a table or array writes a sample that was lost."),
+    click.option("--angle-unit", metavar="deg|rad", help="Unit of columns rx, ry, rz."),
+    click.option("--missing", metavar="empty|nan|WORD|N", help="Marker of a missing sample in a table or array."),
     click.option(
         "--columns",
         metavar="time=..,x=..",
         help="Columns of a table by name or number: time, x, y, z, and qx, qy, qz, qw or rx, ry, rz.",
     ),
-    click.option("--delimiter", metavar="C", help="Between the cells of a table; 'tab' for a tab."),
+    click.option("--delimiter", metavar="C", help="Cell separator of a table; 'tab' for a tab."),
     click.option("--skip-lines", type=int, metavar="N", help="Lines before the header line of a table."),
     click.option(
         "--fixed-orientation",
         is_flag=True,
         default=None,
-        help="Take a position, or one marker, without an orientation; the tool's is held fixed.",
+        help="Use a position, or one marker, without orientation; the tool keeps a fixed one.",
     ),
     click.option(
-        "--mend-times",
+        "--sort-times",
         is_flag=True,
         default=None,
         help="Sort samples by their times, and of several at one time keep the first.",
     ),
+    click.option("--mend-times", is_flag=True, default=None, hidden=True),  # its name before 0.2
     click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0."),
 )
 NAMES = (
@@ -90,7 +89,7 @@ NAMES = (
     "delimiter",
     "skip_lines",
     "fixed_orientation",
-    "mend_times",
+    "sort_times",
     "index",
 )
 
@@ -108,6 +107,9 @@ def recording_options(command: Callable[..., None]) -> Callable[..., None]:
 
 def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
     """Take the options out of a command's arguments: what `recordings.load` and `inspect` take beside the file."""
+    if options.pop("mend_times"):
+        click.echo("dmpcpp: --mend-times is --sort-times now.", err=True)
+        options["sort_times"] = True
     taken = {name: value for name in NAMES if (value := options.pop(name)) is not None}
     for name in ("unit", "time_unit", "missing"):
         if name in taken:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.option("--repeat", default=0, show_default=True, type=click.IntRange(0), help="Random motions to learn as well.")
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the random motions.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the motions.")
 @click.option(
     "--out",
     default="dmpcpp-reproduction",

@@ -13,8 +13,14 @@ from dmpcpp.cli._options import arm_options
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path), metavar="MODEL")
 @arm_options
-@click.option("--host", default="127.0.0.1", show_default=True, help="Who may look; 0.0.0.0 is everyone.")
-@click.option("--port", default=8080, show_default=True, type=click.IntRange(1, 65535), help="The first that is tried.")
+@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on (0.0.0.0: every interface).")
+@click.option(
+    "--port",
+    default=8080,
+    show_default=True,
+    type=click.IntRange(1, 65535),
+    help="Port; the next free one if it is taken.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the page's address as JSON.")
 def view(model: Path, arm: str, base: str | None, tip: str | None, host: str, port: int, as_json: bool) -> None:
     """Show MODEL, a model file, in the browser: drag its goal and start, change time, gain and kernels.
@@ -37,7 +43,7 @@ def view(model: Path, arm: str, base: str | None, tip: str | None, host: str, po
 @click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
 @click.option("--json", "as_json", is_flag=True, help="Print where the page is, its size and the verdict as JSON.")
 def report(folder: Path, as_json: bool) -> None:
-    """Make report.html anew in DIR, the folder of a run of `dmpcpp imitate` or `dmpcpp demo`.
+    """Write report.html again in DIR, the folder of a run of `dmpcpp imitate` or `dmpcpp demo`.
 
     The page is one file that loads nothing: verdict and checks, the moving arm, figures, how to repeat the run.
 

@@ -28,23 +28,23 @@ if TYPE_CHECKING:
 @click.argument("plan", type=click.Path(path_type=Path))
 @click.argument("log", type=click.Path(path_type=Path))
 @arm_options
-@click.option("--topic", metavar="NAME", help="Of the joint states, where a bag has several.")
-@click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Of a CSV log.")
-@click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Of a CSV log.")
-@click.option("--low-pass", default=20.0, show_default=True, metavar="HZ", help="For velocity and acceleration.")
+@click.option("--topic", metavar="NAME", help="Topic of the joint states; required if a bag has several.")
+@click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Time unit of a CSV log.")
+@click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Angle unit of a CSV log.")
+@click.option("--low-pass", default=20.0, show_default=True, metavar="HZ", help="Cutoff for velocity and acceleration.")
 @click.option(
     "--tolerance",
     "stated",
     multiple=True,
     metavar="NAME=VALUE",
-    help="Another limit than the default [m, rad, ratios], such as position_max=0.005; may be repeated.",
+    help="Override a tolerance [m, rad, ratios], e.g. position_max=0.005; repeatable.",
 )
 @click.option(
     "--simulator",
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
     type=engines("none"),
-    help="In whose geometry the executed path is looked at for contacts.",
+    help="Physics engine that checks the executed path for contacts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the tables.")
 def verify(
@@ -61,7 +61,7 @@ def verify(
     simulator: str,
     as_json: bool,
 ) -> None:
-    """Measure LOG, recorded on a real arm, against PLAN: the joints.csv of `dmpcpp imitate`, or its folder.
+    """Compare LOG, recorded on a real arm, with PLAN: the joints.csv of `dmpcpp imitate`, or its folder.
 
     LOG is a CSV with the columns time, <joints> and optionally <joint>_vel and <joint>_torque, or a ROS bag with
     sensor_msgs/JointState. Its time lag is estimated from the joints: the two clocks need not agree.

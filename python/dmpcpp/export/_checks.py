@@ -1,4 +1,4 @@
-"""What no robot should get is refused, with the index and the joint."""
+"""Validates joint trajectories before export."""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | 
         A number that is not finite (named by row and joint), arrays whose sizes differ, time that does not
         increase, a joint without a name or two of the same name.
     FileError
-        The file can not be written; an older one is untouched.
+        The file cannot be written; an older one is untouched.
     """
     samples = checked(trajectory, arm)
     text = io.StringIO(newline="")
@@ -95,7 +95,7 @@ def read_joints(path: str | PathLike[str]) -> JointSamples:
     Raises
     ------
     FileError
-        The file is missing or can not be read.
+        The file is missing or cannot be read.
     InvalidArgument
         The header is another, or a line is damaged; the message names it.
     """
@@ -131,7 +131,7 @@ def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str =
     InvalidArgument
         A number that is not finite, arrays whose sizes differ, or time that does not increase.
     FileError
-        The file can not be written; an older one is untouched.
+        The file cannot be written; an older one is untouched.
     """
     time = strict_times(trajectory.time)
     pose = finite("pose", trajectory.pose, (len(time), 4, 4))
@@ -146,7 +146,7 @@ def read_plan(path: str | PathLike[str]) -> Plan:
     Raises
     ------
     FileError
-        The file is missing or can not be read.
+        The file is missing or cannot be read.
     InvalidArgument
         An array is missing, damaged or of another size.
     """
@@ -177,7 +177,7 @@ def write_tum(path: str | PathLike[str], time: ArrayLike, pose: ArrayLike) -> No
     InvalidArgument
         A number that is not finite, arrays whose sizes differ, time that does not increase, or a reflection.
     FileError
-        The file can not be written; an older one is untouched.
+        The file cannot be written; an older one is untouched.
     """
     time = strict_times(time)
     pose = finite("pose", pose, (len(time), 4, 4))

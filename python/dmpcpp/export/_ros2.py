@@ -52,7 +52,7 @@ def write_ros2_yaml(
     InvalidArgument
         What `checked` refuses, an end at speed, a lead that is not positive.
     FileError
-        The file can not be written; an older one is untouched.
+        The file cannot be written; an older one is untouched.
     """
     samples = _at_rest(checked(trajectory, arm))
     lines = ["header:", "  stamp: {sec: 0, nanosec: 0}", "  frame_id: ''", "joint_names:"]
@@ -74,7 +74,7 @@ def read_ros2_yaml(path: str | PathLike[str]) -> JointSamples:
     Raises
     ------
     FileError
-        The file can not be read.
+        The file cannot be read.
     InvalidArgument
         A line that does not belong there, named by its number; or numbers that no robot should get.
     """
@@ -115,14 +115,14 @@ def write_ros2_bag(
     try:
         scratch = Path(tempfile.mkdtemp(prefix=".bag-", dir=folder.parent))
     except OSError as error:
-        raise FileError(f"{folder}: can not be written ({error.strerror or error}).") from None
+        raise FileError(f"{folder}: cannot be written ({error.strerror or error}).") from None
     try:
         with rosbag2.Writer(scratch / folder.name, version=9) as writer:
             connection = writer.add_connection(topic, _TYPE, typestore=store)
             writer.write(connection, 0, store.serialize_cdr(message, _TYPE))
         (scratch / folder.name).rename(folder)
     except OSError as error:
-        raise FileError(f"{folder}: can not be written ({error.strerror or error}).") from None
+        raise FileError(f"{folder}: cannot be written ({error.strerror or error}).") from None
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
 
@@ -152,7 +152,7 @@ def read_ros2_bag(folder: str | PathLike[str], topic: str | None = None) -> Join
             data = next((raw for _, _, raw in reader.messages(found)), None) if found else None
             message = None if data is None else store.deserialize_cdr(data, _TYPE)
     except (rosbag2.ReaderError, OSError) as error:
-        raise FileError(f"{folder}: can not be read ({error}).") from None
+        raise FileError(f"{folder}: cannot be read ({error}).") from None
     if message is None:
         raise InvalidArgument(f"{folder.name}: no message of type {_TYPE}{f' on {topic}' if topic else ''}.")
     return _from_message(message)

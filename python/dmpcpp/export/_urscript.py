@@ -60,7 +60,7 @@ def write_urscript(
     InvalidArgument
         What `checked` refuses, a number of joints other than six, a parameter outside its range.
     FileError
-        The file can not be written; an older one is untouched.
+        The file cannot be written; an older one is untouched.
     """
     samples = checked(trajectory, arm)
     _six(samples.joint_names)
@@ -92,7 +92,7 @@ def read_urscript(path: str | PathLike[str]) -> tuple[float, Array]:
     Raises
     ------
     FileError
-        The file can not be read.
+        The file cannot be read.
     InvalidArgument
         There are not servoj commands of one period in it.
     """

@@ -20,7 +20,7 @@ CAVEAT = (
     "the controller knows the arm's masses exactly and the bottle's not at all; contact is rigid with Coulomb "
     "friction, and nothing but friction holds the bottle"
 )
-"""What this simulation can and can not see."""
+"""What this simulation can and cannot see."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +73,7 @@ def grasp(planner: Planner, bottle: Bottle, progress: Callable[[float], None] | 
     Raises
     ------
     InvalidArgument
-        The bottle can not be reached; see `Planner.plan`.
+        The bottle cannot be reached; see `Planner.plan`.
     MissingDependency
         PyBullet is not installed.
     """

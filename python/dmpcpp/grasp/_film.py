@@ -58,7 +58,7 @@ def film(
     InvalidArgument, MissingDependency
         See `refuse_format`.
     FileError
-        The file can not be written.
+        The file cannot be written.
     """
     refuse_format(path)
     suffix = Path(path).suffix.lower()

@@ -167,7 +167,7 @@ class Planner:
         joints = self._solver.follow(poses, times=np.arange(float(len(poses))), **_EFFORT)
         report = joints.report
         if not report.complete:
-            return "the arm can not follow"
+            return "the arm cannot follow"
         clearance = _clearance(world, joints.position)
         if isinstance(clearance, str):
             return clearance

@@ -51,7 +51,7 @@ def timed_grasp(arm: Arm, reach: Array, approach: Array, lift: Array, reach_dura
     Returns
     -------
     TimedGrasp or None
-        None where the motors can not even hold the arm.
+        None where the motors cannot even hold the arm.
     """
     parts = [(reach, reach_duration), (approach, _APPROACH), (lift, _LIFT)]
     slow = [_slowed(arm, JointTrajectory.through(np.linspace(0.0, time, len(q)), q)) for q, time in parts]

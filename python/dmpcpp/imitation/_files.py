@@ -45,7 +45,7 @@ def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = 
     MissingDependency
         What a format needs is not installed.
     FileError
-        The folder or a file can not be written.
+        The folder or a file cannot be written.
     """
     chosen = export.chosen(formats, run.log.arm)
     folder = Path(folder)

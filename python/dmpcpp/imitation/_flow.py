@@ -136,7 +136,7 @@ def imitate(
     scale : (float, float)
         Smallest and largest scale of positions that `retarget.place` may choose.
     smooth : bool
-        Whether noise found in the recording may be smoothed out in learning; the recording's history tells.
+        Whether noise found in the recording may be smoothed out in learning; the recording's history says so.
     basis_count : int, optional
         Kernels of the model; by default as many as the motion needs.
     simulator : {"bullet", "mujoco", "both"}, optional
@@ -149,7 +149,7 @@ def imitate(
     Raises
     ------
     InvalidArgument
-        The recording can not be learned or is no motion of a hand (`motion.plausible`), no placement carries it, or
+        The recording cannot be learned or is no motion of a hand (`motion.plausible`), no placement carries it, or
         there is no such simulator.
     MissingDependency
         The simulator is not installed.

@@ -107,7 +107,7 @@ def split(recording: Recording, longest: float = LONGEST_GAP) -> list[Recording]
     """Cut the recording at gaps longer than `longest` [s] and fill the others; parts of fewer than 8 known samples
     are left out.
 
-    Each part counts its time from its first sample; its history tells when that was.
+    Each part counts its time from its first sample; its history says when that was.
     """
     positive("longest", longest)
     recording = _trimmed(recording)

@@ -46,7 +46,7 @@ def plausible(recording: Recording) -> Recording:
 
 
 def implausible(recording: Recording) -> str:
-    """Return why a recording can not be the motion of a hand, and what to do; "" of one that can.
+    """Return why a recording cannot be the motion of a hand, and what to do; "" of one that can.
 
     It stands still: all of it lies in a box with a diagonal of less than 1 mm, turned by less than 0.5 deg from the
     first sample. Or it is too fast: its path is longer than 30 m/s times a window of 0.05 s, or times all of a shorter
@@ -80,9 +80,9 @@ def _covered(recording: Recording, there: NDArray[np.bool_]) -> tuple[float, flo
 def _haste(time: Array, position: Array) -> str:
     if len(time) < 2 * _NEIGHBOURS:
         return ""  # too few samples to tell a glitch from speed; such a recording is refused elsewhere
-    calm = np.median(sliding_window_view(position, _NEIGHBOURS, axis=0), axis=-1)
+    median = np.median(sliding_window_view(position, _NEIGHBOURS, axis=0), axis=-1)
     time = time[_NEIGHBOURS // 2 : -(_NEIGHBOURS // 2)]
-    path = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(calm, axis=0), axis=1))))
+    path = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(median, axis=0), axis=1))))
     begin, end = _windows(time)
     pace = (path[end] - path[begin]) / (time[end] - time[begin])
     k = int(np.argmax(pace))

@@ -72,7 +72,7 @@ def turn_angles(recording: Recording) -> Array:
 
 
 def continuous(recording: Recording, limit: float = np.pi / 2) -> Recording:
-    """Check that the orientation never jumps: between two samples a half turn can not be told from its
+    """Check that the orientation never jumps: between two samples a half turn cannot be told from its
     reverse.
 
     Parameters

@@ -54,8 +54,8 @@ class Preparation:
 def prepare(recording: Recording, how: Preparation | None = None) -> Recording:
     """Crop, take outliers out, fill gaps, choose a part, resample, low-pass and smooth, in this order.
 
-    Each step is the function of its name in `dmpcpp.motion`; the history tells what each did. By default outliers
-    and short gaps are mended and nothing else changes.
+    Each step is the function of its name in `dmpcpp.motion`; the history says what each did. By default outliers
+    and short gaps are filled and nothing else changes.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def prepare(recording: Recording, how: Preparation | None = None) -> Recording:
     how = how or Preparation()
     if how.start or how.end is not None:
         recording = crop(recording, how.start, how.end)
-    recording = _mended(recording, how)
+    recording = _repaired(recording, how)
     recording = _part(recording, how)
     if how.resample is not None:
         recording = resample(recording, how.resample)
@@ -75,7 +75,7 @@ def prepare(recording: Recording, how: Preparation | None = None) -> Recording:
     return smooth(recording) if how.smooth else recording
 
 
-def _mended(recording: Recording, how: Preparation) -> Recording:
+def _repaired(recording: Recording, how: Preparation) -> Recording:
     filled = fill(recording, how.longest_gap)
     if not how.outliers or len(filled) < _OUTLIER_WINDOW:
         return filled

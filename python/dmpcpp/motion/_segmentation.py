@@ -43,7 +43,7 @@ def segments(
     """Cut at the rests: the parts whose speed stays above `rest` times its peak.
 
     Where the noise that is found in the recording would pass for motion, the speed is that of the motion below a
-    frequency at which it does not, 2 to 10 Hz; the history tells. The parts themselves are as recorded.
+    frequency at which it does not, 2 to 10 Hz; the history says. The parts themselves are as recorded.
 
     Parameters
     ----------
@@ -148,8 +148,8 @@ def _pace(recording: Recording, rest: float, angle_weight: float) -> tuple[Array
     wanted = rest * speed(low_pass(even, most), angle_weight).max() / _CLEAR
     deviation = _MEAN_LENGTH * (found.position + angle_weight * found.angle)
     cutoff = float(np.clip((wanted / (2 * np.pi * deviation)) ** (2 / 3) * (1.5 * rate) ** (1 / 3), least, most))
-    calm = low_pass(even, cutoff)
-    pace = np.interp(recording.time, calm.time, speed(calm, angle_weight))
+    smoothed = low_pass(even, cutoff)
+    pace = np.interp(recording.time, smoothed.time, speed(smoothed, angle_weight))
     return pace, f" below {cutoff:.2g} Hz, as noise of {found.describe()} passes for motion"
 
 

@@ -1,4 +1,4 @@
-"""What is too fast to be the motion taken out, and how much that was."""
+"""Noise removal and noise estimates."""
 
 from __future__ import annotations
 
@@ -62,11 +62,11 @@ def smooth(recording: Recording) -> Recording:
     """Take the noise out: smoothing splines whose stiffness generalised cross-validation finds in the data (Craven and
     Wahba, "Smoothing noisy data with spline functions", 1979).
 
-    Needs no even steps and no parameter; the history tells the noise that was found and how far the samples were
+    Needs no even steps and no parameter; the history says the noise that was found and how far the samples were
     moved.
     """
-    calm = demonstration(recording).smoothed()
-    position, rotation = calm.pose[:, :3, 3], Rotation.from_matrix(calm.pose[:, :3, :3])
+    smoothed = demonstration(recording).smoothed()
+    position, rotation = smoothed.pose[:, :3, 3], Rotation.from_matrix(smoothed.pose[:, :3, :3])
     moved, turned = _rms_change(recording, position, rotation)
     return recording.with_(
         f"smoothed: noise of {noise(recording).describe()} found; positions changed by {1e3 * moved:.3g} mm rms, "
@@ -83,7 +83,7 @@ def low_pass(recording: Recording, cutoff: float, order: int = 2) -> Recording:
     Orientations are filtered as quaternions of one sign and renormalised, which is accurate while
     neighbouring samples lie close together. The two passes together damp by 6 dB at the cutoff. 6 to 12 Hz
     is the habit of biomechanics (D. A. Winter, Biomechanics and Motor Control of Human Movement); fast
-    gestures lose 9 to 30 mm at 6 Hz, which the history tells.
+    gestures lose 9 to 30 mm at 6 Hz, which the history says.
 
     Raises
     ------

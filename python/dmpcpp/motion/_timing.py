@@ -46,7 +46,7 @@ def resample(recording: Recording, rate: float) -> Recording:
     """Evaluate the motion at even steps of 1/rate [Hz] from its start; interpolating C2 splines in between.
 
     Positions by a cubic spline (not-a-knot), orientations by scipy's RotationSpline, whose angular velocity
-    and acceleration are continuous. Nothing is smoothed; a rate below the recording's drops what it can not
+    and acceleration are continuous. Nothing is smoothed; a rate below the recording's drops what it cannot
     show, so low-pass first.
 
     Raises

@@ -140,7 +140,7 @@ def write(found: JointPlan, folder: str | PathLike[str]) -> None:
     Raises
     ------
     FileError
-        The folder or a file can not be written.
+        The folder or a file cannot be written.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)

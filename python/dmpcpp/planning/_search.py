@@ -1,7 +1,7 @@
 """The search for a placement with which an arm can carry out a whole motion, within its joint limits.
 
 Of random placements only a few in a hundred carry a motion of a whole arm. So each candidate starts from a
-random configuration of the robot, which shall hold the middle pose of the motion; what the robot can not
+random configuration of the robot, which shall hold the middle pose of the motion; what the robot cannot
 reach anyway is dropped by a look at the positions its tip can take; then single poses are solved, those far
 apart first; and only what is left is followed from the first pose to the last. The best of these is
 improved by small changes, each judged by one pass along the path from the joints at its first pose.

@@ -59,7 +59,7 @@ def formats() -> dict[str, str]:
 
 
 def format_of(path: str | PathLike[str]) -> str:
-    """Return the name of a file's format, told from its name and first bytes.
+    """Return the name of a file's format, recognised from its name and first bytes.
 
     Raises
     ------
@@ -116,14 +116,14 @@ def load(
     Returns
     -------
     Recording
-        In s from 0 and m, checked; its history says what was mended. Samples that the file marks as lost are NaN.
+        In s from 0 and m, checked; its history lists every correction. Samples that the file marks as lost are NaN.
 
     Raises
     ------
     FileError
-        The file is missing or can not be read.
+        The file is missing or cannot be read.
     InvalidArgument
-        The format can not be told, the body is not in the file (the message lists those that are), the
+        The format cannot be recognised, the body is not in the file (the message lists those that are), the
         content is damaged (the message names line, frame or index), or what must be stated was not (`NotStated`).
     MissingDependency
         The format needs a package that is not installed; the message says which extra brings it.

@@ -46,7 +46,7 @@ def from_quaternions(
     quaternions : array (T, 4)
         Each of norm 1 within 0.1; its sign does not matter.
     order : "xyzw" or "wxyz"
-        Where the scalar stands; it cannot be told from the data.
+        Where the scalar stands; the data do not show it.
     name : str
         How messages call the quantity.
     missing : array of bool (T,), optional
@@ -57,7 +57,7 @@ def from_quaternions(
     rotations : array (T, 3, 3)
         NaN where missing.
     notes : list of str
-        What was mended: renormalisation with the largest correction, sign flips with their number.
+        The corrections: renormalisation with the largest correction, sign flips with their number.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def from_quaternions(
     notes = _renormalised(name, off)
     flips = np.flatnonzero(~missing)[sign_flips(unit[~missing])]
     if len(flips):
-        notes.append(f"{name}: sign flips mended: {len(flips)} (the first at frame {flips[0]})")
+        notes.append(f"{name}: sign flips fixed: {len(flips)} (the first at frame {flips[0]})")
     rotation = _matrices(unit if order == "wxyz" else np.roll(unit, 1, axis=1))
     return _blanked(rotation, missing), notes
 
@@ -151,7 +151,7 @@ def from_euler(angles: Array, order: str | None, unit: str | None, missing: NDAr
     from scipy.spatial.transform import Rotation
 
     if order is None:
-        raise NotStated("euler_order", "euler_order: three angles do not tell their order. State for instance 'ZYX'.")
+        raise NotStated("euler_order", "euler_order: three angles without a known order. State for instance 'ZYX'.")
     if unit is None:
         raise NotStated("angle_unit", "angle_unit: not stated. State angle_unit='deg' or 'rad'.")
     if (

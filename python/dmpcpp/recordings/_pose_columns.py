@@ -28,7 +28,7 @@ _ADVICE = " If this marks a lost sample, state missing='{}'."
 def pose(
     cells: Cells, where: Mapping[str, int], called: Callable[[int], str], stated: Stated
 ) -> tuple[Array, Array, list[str]]:
-    """Return position (T, 3), rotation (T, 3, 3) and what was mended; NaN where the sample was lost.
+    """Return position (T, 3), rotation (T, 3, 3) and the corrections made; NaN where the sample was lost.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def _marked(position: Array, missing: object) -> NDArray[np.bool_]:
 
 
 def _check_marks(cells: Cells, values: Array, lost: NDArray[np.bool_], kind: tuple[str, ...]) -> None:
-    """Refuse a number that stands in all of a pose and can not: the mark of a lost sample that was not stated."""
+    """Refuse a number that stands in all of a pose and cannot: the mark of a lost sample that was not stated."""
     mark = values[:, 0]
     with_quaternion = kind in (QUATERNION, NUMBERED)
     impossible = np.abs(2.0 * np.abs(mark) - 1.0) > REFUSE_ABOVE if with_quaternion else np.abs(mark) >= _LEAST_MARK

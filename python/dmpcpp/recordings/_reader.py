@@ -14,7 +14,7 @@ from dmpcpp.recordings._statement import Stated
 
 __all__ = ["COMMON", "Reader", "marker_reader", "no_orientation", "pick_body"]
 
-COMMON = ("unit", "up_axis", "handedness", "mend_times", "rate", "time_unit", "missing", "episode")
+COMMON = ("unit", "up_axis", "handedness", "sort_times", "rate", "time_unit", "missing", "episode")
 """What every format of measured motion lets the caller specify."""
 
 _T = TypeVar("_T")
@@ -53,8 +53,12 @@ class Reader:
         """Refuse what was stated although the format does not take it."""
         for name in stated.names():
             if name not in self.takes:
-                takes = ", ".join(f"{taken}=..." for taken in self.takes) or "nothing"
-                raise InvalidArgument(f"{name}: the format {self.name!r} does not take it; it takes {takes}.")
+                raise self.not_taken(name)
+
+    def not_taken(self, name: str) -> InvalidArgument:
+        """Return the error for a statement that the format does not take."""
+        takes = ", ".join(f"{taken}=..." for taken in self.takes) or "nothing"
+        return InvalidArgument(f"{name}: the format {self.name!r} does not take it; it takes {takes}.")
 
     def call(self, function: Callable[..., _T], path: Path, *arguments: object) -> _T:
         """Call one of the reader's functions so that its complaints begin with the file's name."""

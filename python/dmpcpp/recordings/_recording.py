@@ -29,7 +29,7 @@ class Recording:
     """The motion of one body, checked: whoever holds a Recording holds ordered, proper data.
 
     A sample that the recording system lost stays in its place as NaN in all of position and rotation, so that a
-    gap is seen for what it is; `missing` tells which. Every other number is finite.
+    gap is seen for what it is; `missing` says which. Every other number is finite.
 
     Parameters
     ----------

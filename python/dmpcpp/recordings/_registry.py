@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from os import PathLike
 from pathlib import Path
 
@@ -74,9 +75,9 @@ def reader_of(path: str | PathLike[str], format: str | None = None) -> Reader:
     Raises
     ------
     FileError
-        The file is missing or can not be read.
+        The file is missing or cannot be read.
     InvalidArgument
-        The format is unknown, or can not be told; the message lists those that exist.
+        The format is unknown, or cannot be recognised; the message lists those that exist.
     """
     path = Path(path)
     if format is not None:
@@ -89,7 +90,7 @@ def reader_of(path: str | PathLike[str], format: str | None = None) -> Reader:
             return reader
     if other := known_other(path, head):
         raise InvalidArgument(f"{path.name}: {other}")
-    said = f"{path.name}: the format can not be told.{_hint(head)} State format=..., one of:\n{_listed()}"
+    said = f"{path.name}: the format cannot be recognised.{_hint(head)} State format=..., one of:\n{_listed()}"
     raise NotStated("format", said)
 
 
@@ -109,14 +110,22 @@ def _hint(head: bytes) -> str:
 
 def prepared(path: str | PathLike[str], format: str | None, stated: dict[str, object]) -> tuple[Reader, Stated]:
     """Return the reader of a file and what was stated about it, checked to be what the format takes."""
+    stated = _with_names_of_today(stated)
     reader = reader_of(path, format if format is not None or "columns" not in stated else _with_columns(path))
     for name in stated:
         if name not in Stated.__dataclass_fields__:
-            takes = ", ".join(reader.takes) or "nothing"
-            raise InvalidArgument(f"{name}: the format {reader.name!r} does not take it; it takes: {takes}.")
-    said = Stated(**stated)  # type: ignore[arg-type]
-    reader.check(said)
-    return reader, said
+            raise reader.not_taken(name)
+    statement = Stated(**stated)  # type: ignore[arg-type]
+    reader.check(statement)
+    return reader, statement
+
+
+def _with_names_of_today(stated: dict[str, object]) -> dict[str, object]:
+    """Return the statements with the names of before 0.2 replaced."""
+    if "mend_times" not in stated:
+        return stated
+    warnings.warn("mend_times is sort_times now.", DeprecationWarning, stacklevel=4)
+    return {("sort_times" if name == "mend_times" else name): value for name, value in stated.items()}
 
 
 def _with_columns(path: str | PathLike[str]) -> str:

@@ -102,7 +102,7 @@ def check_norm(values: Array, lost: NDArray[np.bool_]) -> None:
 
 
 def _resolution(values: Array) -> float:
-    """Return the rounding of numbers that were printed with few decimals, 0 where it can not be told."""
+    """Return the rounding of numbers that were printed with few decimals, 0 where it cannot be recognised."""
     for decimals in range(1, 5):
         if np.abs(values - np.round(values, decimals)).max() < 1e-12:
             return float(10.0**-decimals)

@@ -183,7 +183,7 @@ def _shape(chosen: Markers) -> Array:
     shape = frames[0]
     if min(_flatness(shape), _flatness(shape[:3])) < _LEAST_HEIGHT:
         raise InvalidArgument(
-            f"markers: {', '.join(chosen.names)} lie in one line; they do not tell the turn about it."
+            f"markers: {', '.join(chosen.names)} lie on one line; the rotation about it is undefined."
         )
     for _ in range(_ROUNDS):
         rotation, origin, _ = fit_poses(shape, frames)

@@ -41,7 +41,7 @@ class Stated:
         `up_axis` must be known.
     rate : float, optional
         Samples per second [Hz] of a file without times. Stated of one that has them, it wins: samples are taken at even
-        times, and the history tells what was left aside, with a warning where that differs by more than 20 %.
+        times, and the history says what was left aside, with a warning where that differs by more than 20 %.
     times : "header", "received", "log" or None
         Which stamps of a bag or MCAP file count: those in the headers of the messages (None), or when the recorder
         received each message ("log" is another name for it).
@@ -79,7 +79,7 @@ class Stated:
         Which demonstration of an array (N, T, ...), from 0.
     fixed_orientation : bool, optional
         Whether a position without an orientation is enough: the orientation is then the identity throughout.
-    mend_times : bool, optional
+    sort_times : bool, optional
         Whether samples are put in the order of their times, and of several at one time the first counts. Otherwise
         such times are an error; a sample that is merely written twice is left out in any case.
     """
@@ -104,7 +104,7 @@ class Stated:
     skip_lines: int | None = None
     index: int | None = None
     fixed_orientation: bool | None = None
-    mend_times: bool | None = None
+    sort_times: bool | None = None
 
     def __post_init__(self) -> None:
         """Read `rotation` as `quat_order` or `euler_order` where it is one of theirs."""
@@ -181,7 +181,7 @@ class Stated:
         rows, notes = block(time, self.episode)
         if self.rate is not None:
             return rows, notes
-        kept, sorted_notes = in_order(time[rows], *(array[rows] for array in values), mend=self.mend_times)
+        kept, sorted_notes = in_order(time[rows], *(array[rows] for array in values), sort=self.sort_times)
         rows = rows[kept]
         if len(rows) >= MIN_SAMPLES and np.isfinite(time[rows]).all():
             kept, burst_notes = without_bursts(time[rows], values[0][rows], frame.clock)

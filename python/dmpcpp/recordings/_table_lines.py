@@ -34,7 +34,7 @@ class TableLines:
 
 
 def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
-    """Return a table's lines; the delimiter is told from the first of them unless stated.
+    """Return a table's lines; the delimiter is found in the first of them unless given.
 
     Lines that are blank or comments (`#` or `%` first) are left out, and the first `skip` lines of the text. The first
     line names the columns unless it holds numbers; then a comment above with as many words does. Where the
@@ -43,7 +43,7 @@ def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
     Raises
     ------
     InvalidArgument
-        No line of data, or a line that can not be split, named; an unclear delimiter (`NotStated`).
+        No line of data, or a line that cannot be split, named; an unclear delimiter (`NotStated`).
     """
     lines = list(data_lines(text, _COMMENTS, skip))
     if not lines:

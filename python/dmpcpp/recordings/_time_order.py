@@ -1,4 +1,4 @@
-"""The order of a file's samples in time: written twice, written late, or at times that can not be right."""
+"""The order of a file's samples in time: written twice, written late, or at times that cannot be right."""
 
 from __future__ import annotations
 
@@ -55,10 +55,10 @@ def _begins(time: Array) -> list[int]:
     return begins if len(time) - begins[-1] >= MIN_SAMPLES else begins[:-1] or [0]
 
 
-def in_order(time: Array, *values: Array, mend: bool | None = None) -> tuple[NDArray[np.int_], list[str]]:
-    """Return which samples to keep, in the order of their times, and what was mended.
+def in_order(time: Array, *values: Array, sort: bool | None = None) -> tuple[NDArray[np.int_], list[str]]:
+    """Return which samples to keep, in the order of their times, and the corrections made.
 
-    A sample that repeats the one before, time and values alike, is left out. With `mend` samples are sorted by their
+    A sample that repeats the one before, time and values alike, is left out. With `sort` samples are sorted by their
     times, and of several at one time the first in the file counts.
 
     Parameters
@@ -67,12 +67,12 @@ def in_order(time: Array, *values: Array, mend: bool | None = None) -> tuple[NDA
         As in the file, in any unit.
     *values : array (T, ...)
         What was sampled; NaN where lost.
-    mend : bool, optional
+    sort : bool, optional
 
     Raises
     ------
     InvalidArgument
-        Times that do not increase, without `mend`; the message names the first.
+        Times that do not increase, without `sort`; the message names the first.
     """
     kept = np.arange(len(time))
     if not np.isfinite(time).all() or (np.diff(time) > 0.0).all():
@@ -85,7 +85,7 @@ def in_order(time: Array, *values: Array, mend: bool | None = None) -> tuple[NDA
     steps = np.diff(time[kept])
     if (steps > 0.0).all():
         return kept, notes
-    if not mend:
+    if not sort:
         raise _refusal(time, kept, steps)
     ordered = kept[np.argsort(time[kept], kind="stable")]
     first = np.concatenate(([True], np.diff(time[ordered]) > 0.0))
@@ -117,7 +117,7 @@ def _refusal(time: Array, kept: NDArray[np.int_], steps: Array) -> InvalidArgume
     few = len(back) <= max(1, _FEW_BACK * len(steps)) and (-back <= _SHORT_BACK * np.ptp(time[kept])).all()
     if few or len(back) == len(steps):  # some misplaced, or the whole file written backwards
         return InvalidArgument(
-            f"{what} Specify mend_times=True to sort the samples by time and keep the first of each, or remove the "
+            f"{what} Specify sort_times=True to sort the samples by time and keep the first of each, or remove the "
             "misplaced ones."
         )
     return NotStated(

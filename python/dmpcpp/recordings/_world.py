@@ -23,7 +23,7 @@ TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _LARGEST_EXTENT = 5.0  # m; a limb's motion that is larger is more likely in another unit
 _FARTHEST = 100.0  # m; nobody walks farther within a motion capture volume
 _LEAST_EXTENT = 2e-5  # m; what moves less is below the noise of every recording system: more likely another unit
-_AT_REST = 1e-9  # m; what moves less does not move at all, and its unit can not be told
+_AT_REST = 1e-9  # m; what moves less does not move at all, and its unit cannot be told
 LIKELY_STEP = (2e-4, 0.4)
 """s, between samples: 1 kHz in ms is 1, 100 Hz in minutes 1.7e-4."""
 

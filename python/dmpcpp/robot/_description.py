@@ -75,7 +75,7 @@ def describe(
     Raises
     ------
     InvalidArgument
-        A mesh can not be found, a mass is negative, an inertia is not made of finite numbers, nothing beyond a
+        A mesh cannot be found, a mass is negative, an inertia is not made of finite numbers, nothing beyond a
         joint has a mass, or a joint of the arm follows another.
     """
     robot = ET.fromstring(arm.urdf)
@@ -115,7 +115,7 @@ def _refuse_folded_joints(robot: ET.Element, arm: Arm) -> None:
         if joint.get("type") != "fixed" and joint.get("name") not in arm.joint_names:
             raise InvalidArgument(
                 f"arm: joint '{joint.get('name')}' between '{arm.base}' and '{arm.tip}' mimics another; the physics "
-                "engines can not couple them. Choose a base and a tip without it."
+                "engines cannot couple them. Choose a base and a tip without it."
             )
         link = _ends(joint)[0]
 
@@ -176,7 +176,7 @@ def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: P
 
 
 def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
-    """What has no mass beyond a joint has no motion that physics could tell; the last joint has the least beyond it."""
+    """A joint that carries no mass has undefined dynamics; the last joint carries the least."""
     last = arm.joint_names[-1]
     beyond = {_ends(joint)[1] for joint in robot.findall("joint") if joint.get("name") == last}
     for _ in robot.findall("link"):

@@ -22,7 +22,7 @@ def farthest_reach(arm: Arm) -> tuple[Array, float]:
 
     The centre is where the first joint that moves is attached; the radius is the sum of the distances from each joint
     to the next and on to the tip, stretched all the way, and of what sliding joints add. The arm may reach less: joints
-    can not all be stretched. The radius is infinite where the description does not tell.
+    cannot all be stretched. The radius is infinite where the description does not tell.
     """
     try:
         return _ball(_chain(arm), arm)

@@ -1,4 +1,4 @@
-"""What of a URDF the loader, the planner and the physics would stumble over: all of it, not the first alone."""
+"""Lists every defect of a URDF that affects loading, planning or physics, not only the first."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class UrdfReport:
     defects : tuple of Defect
         The fatal ones first.
     arm : Arm or None
-        None where it can not be loaded.
+        None where it cannot be loaded.
     """
 
     path: str
@@ -83,13 +83,13 @@ def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfRepor
     Raises
     ------
     FileError
-        The file can not be read.
+        The file cannot be read.
     """
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise FileError(f"{path}: can not be read ({getattr(error, 'strerror', None) or error}).") from None
+        raise FileError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error}).") from None
     try:
         robot = ET.fromstring(text)
     except ET.ParseError as error:
@@ -103,7 +103,7 @@ def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfRepor
 
 
 def _covers(known: Defect, loading: Defect) -> bool:
-    """Whether what loading says of a link or joint has been said of it already, and as gravely."""
+    """Whether what loading says of a link or joint is already reported with at least this severity."""
     named = "'" in known.where and f"'{known.where.split(chr(39))[1]}'" in loading.what
     return named and known.fatal >= loading.fatal
 
@@ -164,7 +164,7 @@ def _joints(robot: ET.Element, _: Path) -> Iterator[Defect]:
         if joint.find("mimic") is not None:
             yield Defect(
                 where,
-                "mimics another: the physics can not couple joints of the arm",
+                "mimics another: the physics cannot couple joints of the arm",
                 "Choose base and tip without it.",
                 False,
             )
@@ -258,7 +258,7 @@ def _meshes(robot: ET.Element, folder: Path) -> Iterator[Defect]:
                     yield Defect(
                         where,
                         f"its {role} mesh '{name}' is not there",
-                        "Put it beside the URDF, or mend the path.",
+                        "Put it beside the URDF, or fix the path.",
                         role == "collision",
                     )
                     continue
@@ -280,13 +280,15 @@ def _loaded(path: Path, base: str, tip: str) -> tuple[Arm | None, list[Defect]]:
     try:
         arm = Arm.from_urdf_file(str(path), base=base, tip=tip)
     except (InvalidArgument, FileError) as error:
-        return None, [Defect("loading", str(error).rstrip("."), "It stands in the way of a run.", True)]
-    found = [Defect("loading", warning.rstrip("."), "Mend it, or mind it.", False) for warning in arm.warnings]
+        return None, [Defect("loading", str(error).rstrip("."), "A run is not possible until it is fixed.", True)]
+    found = [
+        Defect("loading", warning.rstrip("."), "Fix it, or ignore it deliberately.", False) for warning in arm.warnings
+    ]
     try:
         with tempfile.TemporaryDirectory() as folder:
             describe(arm, Path(folder))
     except (InvalidArgument, ValueError) as error:
-        found.append(Defect("physics", str(error).rstrip("."), "It stands in the way of a run.", True))
+        found.append(Defect("physics", str(error).rstrip("."), "A run is not possible until it is fixed.", True))
     return arm, found
 
 

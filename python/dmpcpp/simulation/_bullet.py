@@ -34,7 +34,7 @@ class Bullet(BulletWorld):
     MissingDependency
         pybullet is not installed.
     InvalidArgument
-        The URDF can not be simulated; the message says why.
+        The URDF cannot be simulated; the message says why.
 
     Notes
     -----

@@ -99,7 +99,7 @@ class BulletWorld:
                 return int(p.loadURDF(str(path), **options, physicsClientId=self._client))
             except p.error as error:
                 reason = " ".join(heard().split()) or str(error)
-        raise InvalidArgument(f"arm.urdf: PyBullet can not load '{self.arm.name}': {reason}")
+        raise InvalidArgument(f"arm.urdf: PyBullet cannot load '{self.arm.name}': {reason}")
 
     def _find_joints(self) -> None:
         """Index joints and links by name: Bullet has its own order, with fingers and fixed joints in it."""

@@ -49,7 +49,7 @@ def execute(
         ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q) + ki
         integral of (q_ref - q)) in the state that is seen, clipped at the effort limits (Siciliano et al.,
         Robotics, 2009, section 8.5.2). The others are sanity checks: the engine's own motors reach a velocity
-        inside the step, which tests kinematics and the torque cap only and can not feel a load. It is the
+        inside the step, which tests kinematics and the torque cap only and cannot feel a load. It is the
         velocity to the next reference position, that of the reference with the error made good in one step,
         or that of the reference with 10/s times the error.
     kp, kd, ki : float
@@ -157,7 +157,7 @@ def _plant_and_model(
 def _refuse(
     arm: Arm, joints: JointTrajectory, rate: float, mode: str, interpolation: str, gains: Gains, settle: float
 ) -> None:
-    """Turn down what can not be carried out, before anything is loaded."""
+    """Turn down what cannot be carried out, before anything is loaded."""
     for name, choice, known in (("mode", mode, MODES), ("interpolation", interpolation, INTERPOLATIONS)):
         if choice not in known:
             raise InvalidArgument(f"{name}: '{choice}', expected one of {', '.join(known)}.")

@@ -50,7 +50,7 @@ class ExecutionLog:
         Engine and version.
     mode : str
         "computed_torque", "position", "position_velocity", "velocity", or "recorded" on a real arm;
-        ``caveat`` says what it can not see.
+        ``caveat`` says what it cannot see.
     rate : float
         Control steps a second [Hz].
     motion : slice
@@ -96,7 +96,7 @@ class ExecutionLog:
 
     @property
     def caveat(self) -> str:
-        """What this mode can not see."""
+        """What this mode cannot see."""
         if self.mode == "recorded":
             return _RECORDED
         unknown = f"the controller does not know of {self.disturbance}" if self.disturbance != Disturbance() else ""

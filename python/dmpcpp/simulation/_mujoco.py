@@ -55,7 +55,7 @@ class MuJoCo:
     MissingDependency
         mujoco is not installed.
     InvalidArgument
-        The URDF can not be simulated; the message says why.
+        The URDF cannot be simulated; the message says why.
     """
 
     def __init__(
@@ -193,7 +193,7 @@ class MuJoCo:
                 model = self._spec(description, floor, obstacles).compile()
         except (ValueError, m.FatalError) as error:
             reason = " ".join(str(error).split())
-            raise InvalidArgument(f"arm.urdf: MuJoCo can not load '{self.arm.name}': {reason}") from None
+            raise InvalidArgument(f"arm.urdf: MuJoCo cannot load '{self.arm.name}': {reason}") from None
         model.opt.timestep = self.time_step
         model.opt.gravity[:] = 0.0, 0.0, GRAVITY
         model.opt.integrator = m.mjtIntegrator.mjINT_EULER

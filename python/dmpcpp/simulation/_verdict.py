@@ -49,7 +49,7 @@ class Verdict(Checked):
     ----------
     checks : tuple of Check
     caveat : str
-        What the mode of the execution can not see.
+        What the mode of the execution cannot see.
     """
 
     checks: tuple[Check, ...]

@@ -56,7 +56,7 @@ def read_log(
     Raises
     ------
     FileError
-        The file is missing or can not be read.
+        The file is missing or cannot be read.
     InvalidArgument
         It is damaged, or no joint log; the message says where and why.
     MissingDependency

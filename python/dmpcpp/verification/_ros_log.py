@@ -19,7 +19,7 @@ _TYPE = "sensor_msgs/msg/JointState"
 
 
 def read_bag(path: Path, topic: str | None, joints: Sequence[str] | None = None) -> JointLog:
-    """Joint states of one topic, counted from the first; what comes twice with one stamp counts once.
+    """Joint states of one topic, counted from the first; duplicate time stamps are dropped.
 
     The time is the stamp of the header, or where no header has one the time at which the bag got the message.
     Messages without one of ``joints`` are left out, if any has them all.
@@ -105,7 +105,7 @@ def _opened(path: Path) -> Iterator[Any]:
     except InvalidArgument as error:
         raise within(path.name, error) from None
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
     except Exception as error:  # the package meets a damaged bag with many types of exception
         raise InvalidArgument(
             f"{path.name}: not a readable bag ({type(error).__name__}: {str(error)[:200]})."

@@ -189,7 +189,7 @@ def _without_ones(poses: Array) -> Array:
 
 
 def _split(poses: Array, stated: Stated, lost: NDArray[np.bool_]) -> tuple[Array | None, Array, Array, list[str]]:
-    """Return time if it is among the columns, position, rotation and what was mended."""
+    """Return time if it is among the columns, position, rotation and the corrections made."""
     if poses.ndim == 3:
         check_last_row(np.where(lost[:, None], [0.0, 0.0, 0.0, 1.0], poses[:, 3]), lost)
         rotation, notes = from_matrices(poses[:, :3, :3], "poses", lost)
@@ -205,7 +205,7 @@ def _split(poses: Array, stated: Stated, lost: NDArray[np.bool_]) -> tuple[Array
     if order is None:
         raise NotStated(
             "quat_order",
-            f"quat_order: not stated, and an array of shape {poses.shape} does not tell it. "
+            f"quat_order: not stated, and an array of shape {poses.shape} does not show it. "
             "State quat_order='xyzw' or 'wxyz'; or, where these are no quaternions, what the columns hold: "
             "layout='x,y,z,rx,ry,rz,gripper' for instance.",
         )
@@ -225,7 +225,7 @@ def _time_column(poses: Array) -> Array | None:
     Raises
     ------
     NotStated
-        They can not; then nothing says what the eight columns are.
+        They cannot; then nothing says what the eight columns are.
     """
     if poses.shape[1] == 7:
         return None
@@ -268,7 +268,7 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     Raises
     ------
     FileError
-        The file is missing or can not be read.
+        The file is missing or cannot be read.
     InvalidArgument
         It is damaged, or holds anything but numbers and text.
     """
@@ -278,7 +278,7 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     except InvalidArgument:
         raise
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
     # NumPy and zipfile meet a damaged file with a dozen types of exception, SyntaxError and zlib.error too.
     except Exception as error:
         raise InvalidArgument(f"not a readable NumPy file ({type(error).__name__}: {error}).") from None

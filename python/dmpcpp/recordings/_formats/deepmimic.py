@@ -81,14 +81,14 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     body = pick_body(body, tuple(_FIGURE))
     frames = _frames(path)
     notes = ["pose of the wrist; its orientation is the forearm's, the figure's wrist is fixed"]
-    rotation, position, mended = _forward_kinematics(frames, body)
+    rotation, position, corrections = _forward_kinematics(frames, body)
     return stated.recording(
         time=_times(frames[:, 0]),
         position=position,
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=(notes if body.endswith("_hand") else []) + mended,
+        notes=(notes if body.endswith("_hand") else []) + corrections,
         world=World(unit="m", time_unit="s", up_axis="y"),
     )
 
@@ -123,7 +123,7 @@ def _times(durations: Array) -> Array:
 
 
 def _forward_kinematics(frames: Array, body: str) -> tuple[Array, Array, list[str]]:
-    """Return rotation (T, 3, 3) and position (T, 3) in the world, and what was mended on the way."""
+    """Return rotation (T, 3, 3) and position (T, 3) in the world, and the corrections made."""
     joint = _FIGURE[body]
     if joint.parent is None:
         rotation, notes = _turn(frames, body)

@@ -181,7 +181,7 @@ def _column(file: Path, name: str) -> Array:
     except InvalidArgument:
         raise
     except OSError as error:
-        raise FileError(f"{file}: can not be read ({str(error)[:120]}).") from None
+        raise FileError(f"{file}: cannot be read ({str(error)[:120]}).") from None
     except Exception as error:  # of a damaged file pyarrow raises a dozen types
         raise InvalidArgument(f"{file.name}: not readable ({type(error).__name__}: {str(error)[:120]}).") from None
 

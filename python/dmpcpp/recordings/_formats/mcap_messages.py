@@ -68,7 +68,7 @@ def poses(path: Path) -> list[Found]:
     except (InvalidArgument, MissingDependency):
         raise
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
     except Exception as error:  # of a damaged file the packages raise anything, MemoryError too
         raise InvalidArgument(f"not a readable MCAP ({type(error).__name__}: {str(error)[:200]}).") from None
     if not found:

@@ -110,7 +110,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     elif stated.rate is None:
         track.check_stamps()
     stamps, values, notes = _ordered(track, by_stamps=stated.rate is None)
-    rotation, mended = from_quaternions(values[:, 3:], stated.quat_order or "xyzw")
+    rotation, corrections = from_quaternions(values[:, 3:], stated.quat_order or "xyzw")
     time = np.array([float(stamp - stamps[0]) for stamp in stamps])
     start = f"time counted from the first stamp at {stamps[0]} ns"
     if stated.times in ("received", "log"):
@@ -121,7 +121,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=[*track.frame(body), start, *notes, *mended],
+        notes=[*track.frame(body), start, *notes, *corrections],
         world=World(unit="m", time_unit="ns"),
     )
 
@@ -221,7 +221,7 @@ def _opened(path: Path) -> Iterator[Any]:
     except InvalidArgument:
         raise
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
     except Exception as error:  # the package meets a damaged bag with a dozen types of exception, MemoryError too
         raise InvalidArgument(f"not a readable bag ({type(error).__name__}: {str(error)[:200]}).") from None
 

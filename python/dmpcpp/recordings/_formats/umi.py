@@ -167,7 +167,7 @@ def _metadata(path: Path) -> dict[str, bytes]:
                 if i.file_size <= _LONGEST
             }
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
     except Exception as error:  # zipfile meets a damaged file with half a dozen types
         raise InvalidArgument(f"not a readable zarr file ({type(error).__name__}: {str(error)[:120]}).") from None
 

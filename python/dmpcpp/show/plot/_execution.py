@@ -113,7 +113,7 @@ def picture(
     MissingDependency
         matplotlib is not installed.
     FileError
-        The file can not be written.
+        The file cannot be written.
     """
     page = figure(title=title, note=note)
     grid = page.add_gridspec(2, 2, width_ratios=(1.35, 1.0), left=0.02, right=0.975, top=0.9, bottom=0.13)

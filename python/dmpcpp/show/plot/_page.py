@@ -44,7 +44,7 @@ def save(page: Figure, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     FileError
-        The file can not be written.
+        The file cannot be written.
     """
     path = Path(path)
     image = png(page)
@@ -54,12 +54,12 @@ def save(page: Figure, path: str | os.PathLike[str]) -> Path:
         part.replace(path)
     except OSError as error:
         part.unlink(missing_ok=True)
-        raise FileError(f"{path}: can not be written: {error.strerror}.") from None
+        raise FileError(f"{path}: cannot be written: {error.strerror}.") from None
     return path
 
 
 def png(page: Figure, dpi: float | None = None) -> bytes:
-    """Return the page as a PNG, of 130 dots an inch unless told; the same page gives the same bytes."""
+    """Return the page as a PNG, at 130 dots per inch by default; the same page gives the same bytes."""
     image = io.BytesIO()
     page.savefig(image, format="png", dpi=dpi or "figure", metadata={"Software": None}, pil_kwargs={"optimize": True})
     return image.getvalue()

@@ -28,7 +28,7 @@ def write(folder: str | PathLike[str]) -> Path:
     Raises
     ------
     FileError
-        A file of the run is missing or can not be read, or the page can not be written.
+        A file of the run is missing or cannot be read, or the page cannot be written.
     InvalidArgument
         A file of the run is not what a run writes.
     MissingDependency

@@ -79,7 +79,7 @@ def write_record(path: str | PathLike[str], record: RunRecord) -> None:
     Raises
     ------
     FileError
-        The file can not be written.
+        The file cannot be written.
     """
     arm = record.arm
     fields = {name: getattr(record, name) for name in _ARRAYS}
@@ -100,7 +100,7 @@ def read_record(path: str | PathLike[str]) -> RunRecord:
     Raises
     ------
     FileError
-        The file is not there or can not be read.
+        The file is not there or cannot be read.
     InvalidArgument
         It is no record of an execution.
     """
@@ -108,7 +108,7 @@ def read_record(path: str | PathLike[str]) -> RunRecord:
         with np.load(Path(path), allow_pickle=False) as file:
             return _record({name: file[name] for name in file.files})
     except OSError as error:
-        raise FileError(f"{path}: can not be read ({error.strerror or error}).") from None
+        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
     except (KeyError, ValueError, EOFError) as error:
         raise InvalidArgument(
             f"{path}: no record of an execution ({error}); expected one that `dmpcpp imitate` wrote. Run it again."

@@ -38,7 +38,7 @@ def read_run(folder: Path) -> RunFolder:
     Raises
     ------
     FileError
-        The folder is not there, or a file of it can not be read.
+        The folder is not there, or a file of it cannot be read.
     InvalidArgument
         A file of it is not what the run wrote.
     """

@@ -51,7 +51,7 @@ def replay_page(
     Raises
     ------
     InvalidArgument
-        Arrays of different lengths, or a mesh that can not be found.
+        Arrays of different lengths, or a mesh that cannot be found.
     MissingDependency
         viser or yourdfpy is not installed.
     """

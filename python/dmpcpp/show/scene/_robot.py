@@ -1,4 +1,4 @@
-"""A robot that stands in a viser scene and moves to the joints it is told."""
+"""A robot in a viser scene, moved to given joints."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class RobotShape:
         Raises
         ------
         InvalidArgument
-            A mesh of the URDF can not be found or read.
+            A mesh of the URDF cannot be found or read.
         MissingDependency
             yourdfpy is not installed.
         """
@@ -83,7 +83,7 @@ class ShownArm:
         Raises
         ------
         InvalidArgument
-            A mesh of the URDF can not be found or read.
+            A mesh of the URDF cannot be found or read.
         MissingDependency
             viser or yourdfpy is not installed.
         """
@@ -157,7 +157,7 @@ def triangles(arm: Arm, joints: ArrayLike) -> Array:
     Raises
     ------
     InvalidArgument
-        joints of another shape, or a mesh of the URDF can not be found or read.
+        joints of another shape, or a mesh of the URDF cannot be found or read.
     MissingDependency
         yourdfpy is not installed.
     """

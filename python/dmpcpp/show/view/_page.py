@@ -52,7 +52,7 @@ def serve(
     Raises
     ------
     InvalidArgument
-        The model is not one of poses, or a mesh of the arm can not be found.
+        The model is not one of poses, or a mesh of the arm cannot be found.
     MissingDependency
         viser or yourdfpy is not installed.
     """

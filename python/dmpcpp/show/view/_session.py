@@ -49,7 +49,7 @@ class Shown:
     time, pose : (T,) s, (T, 4, 4)
         The motion.
     joints : JointTrajectory
-        Its report tells which poses are met.
+        Its report lists the poses that are met.
     velocity_share, acceleration_share : (n,)
         The most that each joint uses of its limits; more than 1 is too fast.
     margin : (n,)

@@ -1,4 +1,4 @@
-"""Many recordings, each carried out by an arm: in processes or on a cluster, resumable, one bad file minded by itself.
+"""Many recordings, each executed by an arm: in processes or on a cluster, resumable; a bad file stops no other.
 
 >>> from dmpcpp import batch
 >>> work = batch.tasks("clips", "out", arm="panda")                        # doctest: +SKIP

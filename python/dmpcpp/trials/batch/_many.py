@@ -38,7 +38,7 @@ def imitate_many(
     InvalidArgument
         jobs below 1, or two tasks with one folder.
     FileError
-        An outcome can not be written.
+        An outcome cannot be written.
     """
     if jobs < 1:
         raise InvalidArgument(f"jobs: {jobs}, expected 1 or more.")

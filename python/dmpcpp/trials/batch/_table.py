@@ -50,7 +50,7 @@ def write_tables(outcomes: Sequence[Outcome], folder: str | PathLike[str]) -> No
     Raises
     ------
     FileError
-        The folder or a file can not be written.
+        The folder or a file cannot be written.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)

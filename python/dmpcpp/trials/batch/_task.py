@@ -109,7 +109,7 @@ def tasks(recordings: str | PathLike[str], out: str | PathLike[str], *, pattern:
     """
     folder = Path(recordings)
     if not folder.is_dir():
-        raise FileError(f"{folder}: no such folder; expected one of recordings.")
+        raise FileError(f"{folder}: the folder does not exist; expected a folder of recordings.")
     files = sorted(path for path in folder.glob(pattern) if path.is_file() and not path.name.startswith("."))
     if not files:
         raise InvalidArgument(f"pattern: no file in '{folder}' fits '{pattern}', expected recordings such as *.bvh.")
@@ -132,7 +132,7 @@ def carry_out(task: Task) -> Outcome:
     Raises
     ------
     FileError
-        The outcome can not be written.
+        The outcome cannot be written.
     """
     began = time.monotonic()
     found: dict[str, Any] = {"errors": {}, "slowdown": 1.0}

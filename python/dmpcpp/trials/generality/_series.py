@@ -59,9 +59,9 @@ def run(
     Raises
     ------
     InvalidArgument
-        jobs below 1, or a line of the file that is no result (a last line that was cut off is not minded).
+        jobs below 1, or a line of the file that is no result (a truncated last line is ignored).
     FileError
-        The file can not be read or written.
+        The file cannot be read or written.
     """
     if jobs < 1:
         raise InvalidArgument(f"jobs: {jobs}, expected 1 or more.")
@@ -84,7 +84,7 @@ def kept(path: str | PathLike[str]) -> list[Result]:
     except FileNotFoundError:
         return []
     except (OSError, UnicodeDecodeError) as error:
-        raise FileError(f"{path}: can not be read ({error}).") from None
+        raise FileError(f"{path}: cannot be read ({error}).") from None
     return [_parsed(line, f"{path}, line {k}") for k, line in enumerate(lines[:-1], start=1)]  # the last is cut off
 
 
@@ -118,7 +118,7 @@ def _append(path: Path, result: Result) -> None:
             file.truncate(_end_of_last_line(path))
             file.write(line.encode())
     except OSError as error:
-        raise FileError(f"{path}: can not be written ({error.strerror or error}).") from error
+        raise FileError(f"{path}: cannot be written ({error.strerror or error}).") from error
 
 
 def _end_of_last_line(path: Path) -> int:

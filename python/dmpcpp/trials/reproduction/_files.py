@@ -30,7 +30,7 @@ def write(run: Reproduction, folder: str | PathLike[str]) -> None:
     Raises
     ------
     FileError
-        The folder or a file can not be written.
+        The folder or a file cannot be written.
     MissingDependency
         matplotlib is not installed.
     """
