@@ -73,6 +73,6 @@ def test_the_path_undoes_a_change_of_tempo():
         (lambda: dmpcpp.frechet([1.0], [np.inf]), r"b\[0\]: not finite"),
     ],
 )
-def test_what_can_not_be_aligned_is_refused_with_the_place(call, message):
+def test_what_cannot_be_aligned_is_refused_with_the_place(call, message):
     with pytest.raises(dmpcpp.InvalidArgument, match=message):
         call()

@@ -62,7 +62,7 @@ def test_a_fitted_model_is_planned_for_the_arm_it_was_placed_for(tmp_path):
     assert joints.time[-1] == pytest.approx(3.0 * json.loads(done.stdout)["slowdown"])
 
 
-def test_a_time_that_the_joints_can_not_keep_is_stretched_or_refused_as_asked(tmp_path):
+def test_a_time_that_the_joints_cannot_keep_is_stretched_or_refused_as_asked(tmp_path):
     write_hand(tmp_path / "hand.npz")
     assert run("fit", "hand.npz", "--quat-order", "xyzw", "--arm", "iiwa", cwd=tmp_path).returncode == 0
     hasty = ("plan", "model.json", "--arm", "iiwa", "--duration", "0.05", "--simulator", "none", "--json")

@@ -146,7 +146,7 @@ def test_options_are_fields_keywords_or_an_object_and_enumerators_go_by_name():
         ({"alpha": np.inf}, "options.alpha: inf"),
     ],
 )
-def test_options_that_can_not_be_are_refused_by_name(fields, message):
+def test_options_that_cannot_be_are_refused_by_name(fields, message):
     with pytest.raises(InvalidArgument, match=message):
         Dmp.fit(helix(), **fields)
 
@@ -263,7 +263,7 @@ def test_a_phase_that_is_no_phase_is_refused():
             model.forcing(phase)
 
 
-def test_the_options_of_a_model_are_a_copy_that_can_not_change_it():
+def test_the_options_of_a_model_are_a_copy_that_cannot_change_it():
     time = np.linspace(0.0, 1.0, 50)
     model = dmpcpp.Dmp.fit(dmpcpp.Demonstration(time, time**2))
     before, options = model.rollout().position, model.options

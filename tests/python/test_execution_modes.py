@@ -218,7 +218,7 @@ def test_a_disturbance_out_of_range_is_refused(wrong, message):
         Disturbance(**wrong)
 
 
-def test_what_can_not_be_driven_is_refused(panda):
+def test_what_cannot_be_driven_is_refused(panda):
     with pytest.raises(InvalidArgument, match="control_rate: 300 Hz does not divide the simulation's 1000 Hz"):
         simulation.execute(panda, swing(panda), disturbance=Disturbance(control_rate=300.0))
     with pytest.raises(InvalidArgument, match="interpolation: 'linear', expected one of quintic, cubic"):

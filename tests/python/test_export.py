@@ -185,7 +185,7 @@ def test_a_new_file_gets_the_permissions_of_any_new_file(tmp_path):
 
 
 @pytest.mark.parametrize("where", ["missing/a.csv", "file/a.csv", "folder"])
-def test_a_place_that_can_not_be_written_is_a_file_error(tmp_path, where):
+def test_a_place_that_cannot_be_written_is_a_file_error(tmp_path, where):
     (tmp_path / "file").write_text("")
     (tmp_path / "folder").mkdir()
     with pytest.raises(FileError, match="cannot be written"):

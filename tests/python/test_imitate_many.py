@@ -70,7 +70,7 @@ def test_a_task_is_another_when_its_options_or_its_recording_change(tmp_path):
 
 
 def test_wrong_batches_are_refused(takes, tmp_path):
-    with pytest.raises(FileError, match="no such folder"):
+    with pytest.raises(FileError, match="the folder does not exist"):
         batch.tasks(tmp_path / "nowhere", tmp_path)
     with pytest.raises(InvalidArgument, match=r"\*\.bvh"):
         batch.tasks(takes, tmp_path, pattern="*.bvh")

@@ -149,7 +149,7 @@ def test_the_command_leaves_with_3_while_something_is_to_be_stated(tmp_path):
     assert run(path, "--columns", columns, "--unit", "1.0", "--delimiter", ",").returncode == 0
 
 
-def test_the_command_leaves_with_2_and_one_line_where_the_file_can_not_be_read(tmp_path):
+def test_the_command_leaves_with_2_and_one_line_where_the_file_cannot_be_read(tmp_path):
     path = table(tmp_path / "a.csv", lost=[7])
     done = run(path)
     assert done.returncode == 2

@@ -206,7 +206,7 @@ def test_motive_cells_that_are_empty_are_gaps(tmp_path):
         ({"Length Units": "Parsecs"}, "Length Units is 'Parsecs'.*State unit"),
     ],
 )
-def test_a_motive_export_that_can_not_be_placed_is_refused_with_the_remedy(tmp_path, facts, message):
+def test_a_motive_export_that_cannot_be_placed_is_refused_with_the_remedy(tmp_path, facts, message):
     body, _ = motive_body()
     with pytest.raises(InvalidArgument, match=message):
         recordings.load(motive(tmp_path / "a.csv", body, **facts))

@@ -245,6 +245,12 @@ def test_what_stands_still_has_no_smoothness():
         (lambda: metrics.best_lag([[1.0]], [[1.0]], 0.1), "expected at least 2"),
     ],
 )
-def test_what_can_not_be_measured_is_refused_with_the_reason(call, message):
+def test_what_cannot_be_measured_is_refused_with_the_reason(call, message):
     with pytest.raises(InvalidArgument, match=message):
         call()
+
+
+@pytest.mark.parametrize("limit", [0.0, -1.0, [1.0, 0.0], [1.0, 2.0, 3.0], np.nan])
+def test_the_margin_to_a_limit_that_is_none_is_refused(limit):
+    with pytest.raises(InvalidArgument, match="limit: "):
+        metrics.margin(np.zeros((3, 2)), limit)

@@ -144,3 +144,10 @@ def test_people_have_no_outliers_where_recordings_are_good(recorded):
 def test_options_of_outliers_without_sense_are_refused(options, message):
     with pytest.raises(InvalidArgument, match=message):
         motion.outliers(screw(), **options)
+
+
+@pytest.mark.parametrize("longest", [0.0, -0.1, np.nan, np.inf])
+@pytest.mark.parametrize("act", [motion.fill, motion.split])
+def test_a_longest_gap_that_is_no_duration_is_refused(act, longest):
+    with pytest.raises(InvalidArgument, match="longest: .* expected a positive"):
+        act(lose(screw(), 10, 11), longest)

@@ -96,7 +96,7 @@ def test_a_pendulum_that_is_let_go_swings_with_its_own_period():
     assert max(angles[-12_000:]) == pytest.approx(0.05, rel=1e-2)
 
 
-def test_a_urdf_that_it_can_not_read_is_refused_with_its_reason(tmp_path):
+def test_a_urdf_that_it_cannot_read_is_refused_with_its_reason(tmp_path):
     (tmp_path / "rod.dae").write_text("<nothing/>")
     geometry = '<collision><geometry><mesh filename="rod.dae"/></geometry></collision></link>'
     path = tmp_path / "pendulum.urdf"

@@ -78,7 +78,7 @@ def test_a_picture_leaves_pyplot_and_its_settings_alone(tmp_path):
     subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
 
 
-def test_a_file_that_can_not_be_written_leaves_nothing_behind(tmp_path):
+def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path):
     with pytest.raises(FileError, match="cannot be written: No such file or directory"):
         draw(tmp_path / "missing" / "picture.png")
     (tmp_path / "folder.png").mkdir()

@@ -122,10 +122,10 @@ def test_a_folder_is_a_file_error(tmp_path):
         recordings.load(tmp_path)
 
 
-def test_an_unknown_format_and_one_that_can_not_be_told_list_the_formats(tmp_path):
+def test_an_unknown_format_and_one_that_cannot_be_told_list_the_formats(tmp_path):
     path = tmp_path / "words.txt"
     path.write_text("these are words\n")
-    with pytest.raises(InvalidArgument, match=r"cannot be told(.*\n)+  arrays .*\n(.*\n)+  tum "):
+    with pytest.raises(InvalidArgument, match=r"cannot be recognised(.*\n)+  arrays .*\n(.*\n)+  tum "):
         recordings.load(path)
     with pytest.raises(InvalidArgument, match=r"format: 'xml', expected one of:(.*\n)+  tum "):
         recordings.load(path, format="xml")
@@ -743,3 +743,23 @@ def test_every_recorded_file_reads_or_says_what_to_state(recorded):
             assert len(recordings.markers(path)) >= 8
         read.add(path.suffix)
     assert read == {".bvh", ".npy", ".c3d", ".csv", ".trc", ".tsv", ".txt"}
+
+
+@pytest.mark.parametrize("place", [-0.4, 0.4])
+def test_transposed_matrices_are_refused_whatever_the_sign_of_their_translation(tmp_path, place):
+    poses = np.tile(np.eye(4), (20, 1, 1))
+    poses[:, 3, :3] = [place, 0.0, 0.0]
+    np.save(tmp_path / "poses.npy", poses)
+    with pytest.raises(InvalidArgument, match=r"poses\[0\]: last row .* Are the matrices transposed"):
+        recordings.load(tmp_path / "poses.npy", rate=100)
+
+
+@pytest.mark.parametrize("value", [-1e9, 1e9, "-Infinity", "NaN"])
+def test_a_clip_with_a_number_that_is_none_names_frame_and_column(tmp_path, value):
+    row = ["0.1", *["0.0"] * 43]
+    frames = [list(row) for _ in range(10)]
+    frames[3][2] = str(value)
+    text = ",".join(f"[{','.join(frame)}]" for frame in frames)
+    (tmp_path / "clip.txt").write_text(f'{{"Loop": "wrap", "Frames": [{text}]}}')
+    with pytest.raises(InvalidArgument, match=r"Frames\[3\]\[2\]: .*expected a finite number"):
+        recordings.load(tmp_path / "clip.txt", body="right_hand", format="deepmimic")

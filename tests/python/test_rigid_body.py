@@ -106,7 +106,7 @@ def test_markers_that_do_not_make_a_body_are_refused(names, message):
 
 def test_markers_in_one_line_or_never_seen_together_are_refused():
     line = np.array([[0.0, 0, 0], [0.1, 0, 0], [0.2, 0.001, 0]])
-    with pytest.raises(InvalidArgument, match="lie in one line"):
+    with pytest.raises(InvalidArgument, match="lie on one line"):
         rigid_body(moved(shape=line), NAMES[:3])
     with pytest.raises(InvalidArgument, match=r"one is 1e\+308 m from the origin, expected at most 1e\+06 m"):
         rigid_body(moved(shape=1e308 * np.eye(4)[:, :3]), NAMES)

@@ -52,7 +52,7 @@ def test_with_the_derivatives_of_the_spline_it_follows_to_a_twentieth_of_a_milli
     assert log.errors.angle_max <= np.radians(0.01)
 
 
-def test_the_engines_own_motors_follow_as_well_and_the_log_says_what_they_can_not_show(panda):
+def test_the_engines_own_motors_follow_as_well_and_the_log_says_what_they_cannot_show(panda):
     log = simulation.execute(panda, swing(panda), mode="position")
     assert log.errors.position_max <= 1e-5
     assert log.mode == "position"
@@ -390,7 +390,7 @@ def test_the_torque_factor_of_a_damped_pendulum_is_its_closed_form():
     assert 0.35 * 100.0 / factor**2 + 0.7 * 30.0 / factor == pytest.approx(50.0)
 
 
-def test_a_pose_that_can_not_be_held_has_no_finite_torque_factor(panda):
+def test_a_pose_that_cannot_be_held_has_no_finite_torque_factor(panda):
     weak = panda.with_limits(effort=[87.0, 10.0, 87.0, 87.0, 12.0, 12.0, 12.0])
     assert simulation.torque_duration_factor(weak, swing(weak)) == np.inf
 

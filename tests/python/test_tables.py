@@ -359,3 +359,14 @@ def test_the_commands_take_what_tables_need_stated(tmp_path):
     refused = runner.invoke(main, ["inspect", str(path), "--fixed-orientation"])
     assert refused.exit_code == 2 and "Specify --sort-times" in refused.output
     assert runner.invoke(main, ["inspect", str(path), "--fixed-orientation", "--sort-times"]).exit_code == 0
+
+
+def test_mend_times_is_the_old_name_of_sort_times(tmp_path):
+    path = write(tmp_path / "a.csv", ROWS[::-1, :4], HEADER[:4])
+    with pytest.warns(DeprecationWarning, match="sort_times now"):
+        old = recordings.load(path, fixed_orientation=True, mend_times=True)
+    new = recordings.load(path, fixed_orientation=True, sort_times=True)
+    np.testing.assert_array_equal(old.position, new.position)
+    done = CliRunner().invoke(main, ["inspect", str(path), "--fixed-orientation", "--mend-times"])
+    assert "--mend-times is --sort-times now" in done.output
+    assert "--mend-times" not in CliRunner().invoke(main, ["inspect", "--help"]).output

@@ -248,6 +248,31 @@ def test_a_silence_before_the_motion_hides_nothing_and_changes_no_rate(plan, exe
     assert result.log.rate == pytest.approx(250.0, rel=1e-9)
 
 
+def test_a_silence_after_the_motion_hides_nothing(plan, executed):
+    log = recorded(executed, every=4)
+    late = JointLog(
+        np.append(log.time, log.time[-1] + 3600.0), np.vstack([log.position, log.position[-1:]]), None, None, NAMES
+    )
+    result = verification.verify(PANDA, plan, late)
+    assert result.ok, [check for check in result.checks if not check.ok]
+
+
+def test_a_silence_within_the_motion_fails(plan, executed):
+    log = recorded(executed)
+    middle = (log.time > 0.8) & (log.time < 1.1)
+    holed = JointLog(log.time[~middle], log.position[~middle], None, None, NAMES)
+    result = verification.verify(PANDA, plan, holed)
+    assert [check.name for check in result.failed if "gap" in check.name] != []
+
+
+def test_a_plan_may_begin_at_any_time(plan, executed):
+    later = export.JointSamples(plan.time + 5.0, plan.position, plan.velocity, plan.acceleration, NAMES)
+    moved, usual = (verification.verify(PANDA, each, recorded(executed, 0.25)) for each in (later, plan))
+    assert moved.ok
+    assert [check.ok for check in moved.checks] == [check.ok for check in usual.checks]
+    assert moved["tracking_position_rmse"].value == pytest.approx(usual["tracking_position_rmse"].value, abs=1e-9)
+
+
 def write_bag(path, log, topics=("/joint_states",), again=0, stamped=True, gripper=False):
     rosbags = pytest.importorskip("rosbags.rosbag2")
     from rosbags.typesys import Stores, get_typestore

@@ -18,9 +18,9 @@ PLAN = ("plan", "model.json", "--simulator", "none")
 # What is typed, the argument that is named, what came, what was expected or what to do.
 WRONG = {
     "no such recording": (("fit", "nowhere.bvh"), "nowhere.bvh", "cannot be read", "No such file"),
-    "no recording": (("fit", "text.bvh", "--unit", "cm"), "text.bvh", "format cannot be told", "State --format"),
-    "quaternions in an order unheard of": (("fit", "hand.npz", "--quat-order", "abcd"), "quat_order", "abcd", "wxyz"),
-    "quaternions of no order": (("fit", "hand.npz"), "quat_order", "hand.npz", "State"),
+    "no recording": (("fit", "text.bvh", "--unit", "cm"), "text.bvh", "format cannot be recognised", "State --format"),
+    "quaternions in an order unheard of": (("fit", "hand.npz", "--quat-order", "abcd"), "--quat-order", "abcd", "wxyz"),
+    "quaternions of no order": (("fit", "hand.npz"), "--quat-order", "hand.npz", "State"),
     "a unit unheard of": ((*FIT, "--unit", "ell"), "unit", "ell", "expected"),
     "an axis unheard of": ((*FIT, "--up-axis", "w"), "up", "w", "expected"),
     "a format unheard of": (("inspect", "hand.npz", "--format", "dance"), "format", "dance", "bvh"),
@@ -41,12 +41,12 @@ WRONG = {
     "a goal that is not finite": ((*PLAN, "--goal", "nan,0,0"), "--goal", "nan,0,0", "finite"),
     "a goal with no quaternion": ((*PLAN, "--goal", "0,0,0,1,1,1,1"), "--goal", "2.000", "expected 1"),
     "a time that is none": ((*PLAN, "--duration", "-2"), "duration", "-2", "positive"),
-    "joints that are too few": ((*PLAN, "--from-joints", "0,0"), "start", "2", "7"),
+    "joints that are too few": ((*PLAN, "--from-joints", "0,0"), "--from-joints", "2", "7"),
     "a model that is none": (("plan", "arm.urdf"), "arm.urdf", "", ""),
     "a model that is not there": (("plan", "none.json"), "none.json", "", ""),
-    "a model of positions": (("plan", "positions.json", "--simulator", "none"), "model", "Dmp", "PoseDmp"),
+    "a model of positions": (("plan", "positions.json", "--simulator", "none"), "MODEL", "Dmp", "PoseDmp"),
     "an engine unheard of": (("plan", "model.json", "--simulator", "ode"), "--simulator", "ode", "'bullet'"),
-    "a goal beyond the arm": ((*PLAN, "--goal", "9,0,0"), "goal", "(9, 0, 0)", "long stretched out"),
+    "a goal beyond the arm": ((*PLAN, "--goal", "9,0,0"), "--goal", "(9, 0, 0)", "long stretched out"),
     "results where there can be none": (
         (*PLAN, "--out", "/proc/dmpcpp"),
         "--out",
@@ -61,7 +61,7 @@ WRONG = {
     "a report of no run": (("report", "empty"), "empty", "summary.json", "Run it again"),
     "a report of no folder": (("report", "nowhere"), "nowhere", "no such folder", "dmpcpp imitate"),
     "a batch of nothing": (("batch", "empty"), "pattern", "empty", "*.bvh"),
-    "a batch of no folder": (("batch", "nowhere"), "nowhere", "no such folder", "expected"),
+    "a batch of no folder": (("batch", "nowhere"), "nowhere", "does not exist", "expected"),
     "jobs that are none": (("batch", "empty", "--jobs", "0"), "--jobs", "0", "x>=1"),
     "a tolerance unheard of": (
         ("verify", "a", "b", "--tolerance", "speed=1"),
@@ -70,7 +70,7 @@ WRONG = {
         "position_max",
     ),
     "a port that is none": (("view", "model.json", "--port", "99999"), "--port", "99999", "65535"),
-    "a view of positions": (("view", "positions.json"), "model", "Dmp", "PoseDmp"),
+    "a view of positions": (("view", "positions.json"), "MODEL", "Dmp", "PoseDmp"),
 }
 
 
