@@ -105,7 +105,7 @@ def test_the_unit_of_a_bvh_must_be_stated(tmp_path):
 
 def test_fewer_frames_than_announced_are_said(tmp_path):
     found = recordings.load(written(tmp_path / "a.bvh", FRAMES, announced=99), "Hips", unit="cm")
-    assert "warning: 99 frames announced, 12 there" in found.history
+    assert "WARNING: 99 frames announced, 12 there" in found.history
 
 
 DAMAGED = {

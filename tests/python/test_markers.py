@@ -252,7 +252,7 @@ def test_trc_markers_read_between_tabs_or_commas(tmp_path, separator):
 
 def test_a_trc_with_fewer_frames_than_announced_says_so(tmp_path):
     found = recordings.markers(trc(tmp_path / "a.trc", announced=99))
-    assert "warning: the header announces 99 frames, the file holds 12" in found.history
+    assert "WARNING: the header announces 99 frames, the file holds 12" in found.history
 
 
 def test_a_trc_of_an_unknown_unit_asks_for_it_and_a_stated_one_counts(tmp_path):

@@ -15,7 +15,7 @@ def test_a_note_is_its_text_and_knows_its_kind():
     assert note == "no length unit given: positions taken as metres"
     assert (note.kind, note.text, note.about) == ("assumed", str(note), "unit")
     doubtful = Note("warning", "the header announces 5 rows, the file holds 4")
-    assert doubtful == "warning: the header announces 5 rows, the file holds 4"
+    assert doubtful == "WARNING: the header announces 5 rows, the file holds 4"
     assert doubtful.text == "the header announces 5 rows, the file holds 4"
 
 
@@ -27,7 +27,7 @@ def test_an_unknown_kind_is_refused():
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda note: pickle.loads(pickle.dumps(note))])
 def test_a_note_keeps_its_kind_as_a_copy(again):
     note = again(Note("warning", "doubtful", about="rate"))
-    assert (note, note.kind, note.text, note.about) == ("warning: doubtful", "warning", "doubtful", "rate")
+    assert (note, note.kind, note.text, note.about) == ("WARNING: doubtful", "warning", "doubtful", "rate")
 
 
 def test_a_recording_holds_notes_and_plain_text_counts_as_a_change():

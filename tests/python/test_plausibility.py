@@ -43,7 +43,7 @@ def test_a_little_motion_or_a_little_turn_is_enough(extent, turn):
 
 def test_who_turns_on_the_spot_is_taken_with_a_warning():
     history = motion.plausible(moving(0.4e-3, 1.0)).history
-    assert history[-1] == "warning: moves over 0.4 mm only and turns by 57 deg: is the unit of its lengths right?"
+    assert history[-1] == "WARNING: moves over 0.4 mm only and turns by 57 deg: is the unit of its lengths right?"
     assert motion.plausible(moving(2e-3, 1.0)).history == ()
 
 

@@ -270,7 +270,7 @@ def test_non_unit_quaternions_are_refused_only_in_the_chain_of_the_body(clips):
 
 def test_a_slightly_non_unit_quaternion_is_renormalised_with_a_warning_in_the_history(clips):
     history = recordings.clip("jump").history
-    assert any(h.startswith("warning: right_shoulder quaternion: renormalised, off by") for h in history)
+    assert any(h.startswith("WARNING: right_shoulder quaternion: renormalised, off by") for h in history)
 
 
 def test_sign_flips_between_frames_leave_the_motion_untouched(clips, tmp_path):
@@ -537,7 +537,7 @@ def test_nearly_orthonormal_matrices_become_the_nearest_rotation(tmp_path):
     np.savez(tmp_path / "a.npz", time=TIMES, pose=sheared)
     recording = recordings.load(tmp_path / "a.npz")
     assert_same_motion(recording)
-    assert any(step.startswith("warning: poses: renormalised, off by at most 0.002") for step in recording.history)
+    assert any(step.startswith("WARNING: poses: renormalised, off by at most 0.002") for step in recording.history)
     sheared[4, :3, :3] *= 1.2
     np.savez(tmp_path / "a.npz", time=TIMES, pose=sheared)
     with pytest.raises(InvalidArgument, match=r"poses\[4\]: singular value = 1\.2"):
@@ -716,7 +716,7 @@ def test_coordinates_of_a_model_are_refused_until_six_of_them_are_a_pose(recorde
     angles = np.radians([-89.84738783, -181.00286714, 18.49171606])
     np.testing.assert_allclose(box.rotation[0], Rotation.from_euler("XYZ", angles).as_matrix(), atol=1e-9)
     np.testing.assert_allclose(box.position[0], [0.19682993, 0.0095494, 0.22749238])
-    assert len(box) == 88 and "warning: the header announces 250 rows, the file holds 88" in box.history
+    assert len(box) == 88 and "WARNING: the header announces 250 rows, the file holds 88" in box.history
     with pytest.raises(InvalidArgument, match="no column 'boxx'"):
         recordings.load(path, columns={**columns, "x": "boxx"}, euler_order="XYZ")
 

@@ -80,7 +80,7 @@ def test_the_residual_is_reported_and_markers_of_two_bodies_are_warned_of():
     loose = moved().position.copy()
     loose[:, 3] += 0.05 * np.sin(20 * TIMES)[:, None]
     odd = rigid_body(Markers(NAMES, TIMES, loose), NAMES)
-    assert any(note.startswith("warning: markers lie") for note in odd.history)
+    assert any(note.startswith("WARNING: markers lie") for note in odd.history)
 
 
 def test_frames_of_mistaken_markers_can_be_taken_out():

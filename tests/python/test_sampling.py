@@ -35,7 +35,7 @@ def test_a_rate_in_place_of_a_tables_times_is_told_and_another_tempo_is_a_warnin
     found = recordings.load(path, rate=100.0)
     assert found.rate == pytest.approx(100.0)
     assert told(found.history) == [
-        "warning: times of the file left aside: 100 Hz as stated; by its own times 25 Hz, so the motion is taken "
+        "WARNING: times of the file left aside: 100 Hz as stated; by its own times 25 Hz, so the motion is taken "
         "4 times as fast as the file says"
     ]
     assert told(recordings.load(path, rate=30.0).history) == [
@@ -73,7 +73,7 @@ def test_a_rate_that_the_file_states_is_left_aside_likewise(tmp_path):
     assert told(recordings.load(tmp_path / "a.npz", quat_order="xyzw", rate=25.0).history) == []
     found = recordings.load(tmp_path / "a.npz", quat_order="xyzw", rate=100.0)
     assert told(found.history)[0].startswith(
-        "warning: rate of the file left aside: 100 Hz as stated; by its own rate 25"
+        "WARNING: rate of the file left aside: 100 Hz as stated; by its own rate 25"
     )
 
 
@@ -87,9 +87,9 @@ def test_files_of_markers_and_bodies_say_it_too(tmp_path):
     )
     for found in files:
         assert found.rate == pytest.approx(7.0)
-        assert len(told(found.history)) == 1 and told(found.history)[0].startswith("warning")
+        assert len(told(found.history)) == 1 and told(found.history)[0].startswith("WARNING")
 
 
 def test_the_command_prints_the_warning(tmp_path):
     done = run("inspect", table(tmp_path / "a.csv"), "--rate", 100, "--unit", "m", "--up", "z", cwd=tmp_path)
-    assert "warning: times of the file left aside: 100 Hz as stated; by its own times 25 Hz" in done.stdout
+    assert "WARNING: times of the file left aside: 100 Hz as stated; by its own times 25 Hz" in done.stdout

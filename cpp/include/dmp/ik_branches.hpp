@@ -17,7 +17,7 @@ struct BranchOptions {
 };
 
 /// The different joints that meet one pose, one after the other, for a user who chooses among them: elbow up
-/// or down, wrist flipped, the windings of joints wider than a turn. An arm with joints to spare meets a pose
+/// or down, wrist flipped, the windings of joints wider than a turn. A redundant arm meets a pose
 /// in a continuum of ways; then these are samples of it. The same arguments give the same joints.
 class DMP_EXPORT IkBranches {
  public:

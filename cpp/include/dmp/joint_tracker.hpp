@@ -16,9 +16,9 @@ struct TrackOptions {
   double angle_tolerance = 1e-6;     ///< rad, > 0
   double angle_weight =
       0.1;  ///< m per rad, > 0: "closest" weighs the angle error so against the position error
-  /// What of a pose counts, in its own axes: see IkOptions::weight.
+  /// Which directions of the pose are constrained, in its own axes: see IkOptions::weight.
   Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Ones();
-  /// rad per m that the tip moves, >= 0: how much joints to spare are drawn away from their limits.
+  /// rad per m that the tip moves, >= 0: null-space gain away from joint limits.
   double limit_pull = 1.0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace dmp::detail {
 
-/// What of a pose counts: a weight for each direction of the target's own frame, moving along x, y, z and
+/// Which directions of a pose are constrained: a weight for each direction of the target's own frame, moving along x, y, z and
 /// turning about x, y, z. A direction of weight 0 is free. Of the turns, all count, or all but one (the axis
 /// of a tool that may spin), or none.
 class PoseGoal {

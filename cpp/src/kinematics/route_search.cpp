@@ -52,7 +52,7 @@ RouteSearch::RouteSearch(const ChainModel& model, const Tolerances& tolerances, 
       lm_(model, tolerances, iterations_for_a_start),
       tracker_(model, tolerances) {}
 
-// Only an arm with joints to spare has a null space to move in.
+// Only a redundant arm has a null space to move in.
 std::vector<double> RouteSearch::pulls() const {
   if (tracker_.has_null_space()) return {0.0, 1.0, 4.0};
   return {0.0};

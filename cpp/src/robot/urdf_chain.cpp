@@ -243,7 +243,7 @@ void read_joints(const UrdfPath& path, ChainModel& model) {
   table.finish();
 }
 
-// Inertia plays no part in kinematics, but a simulator that loads the same robot will stumble over it.
+// Inertia plays no part in kinematics, but a simulator that loads the same robot may fail on it.
 void warn_of_inertia(const urdf::Link& link, std::vector<std::string>& warnings) {
   if (!link.inertial) return;
   const urdf::Inertial& body = *link.inertial;
