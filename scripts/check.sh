@@ -30,7 +30,7 @@ check_asan-core() {
     DMP_CASES=500 ctest --test-dir build/asan-core --output-on-failure -E '^header_|^package$'
 }
 
-check_mutation() { "$python" scripts/mutation.py; }
+check_mutation() { "$python" scripts/mutation.py && "$python" scripts/mutation_python.py; }
 check_release() { preset release; }
 check_package() { cmake --preset release && cmake --build --preset release && tests/package/installed.sh build/release; }
 check_matrix() { tests/package/matrix.sh; }

@@ -53,8 +53,6 @@ _STAND_INS: dict[str, Any] = {
 }
 """What is taken for granted to see what else is to be stated; nothing else comes of it."""
 
-TAKEN = "taken: "
-"""What notes of a history begin with that name an assumption: `taken: NAME: what`."""
 _JUMP = np.pi / 2  # rad between samples; no hand turns that far, and a half turn cannot be recognised from its reverse
 
 
@@ -291,14 +289,11 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
 def _assumed(found: Recording | Markers, needed: dict[str, str]) -> dict[str, str]:
     """Return what was taken for granted, but for what is to be stated."""
     assumed = {}
-    if "unit" not in needed and any(Note.of(note).about == "unit" for note in found.history):
-        assumed["unit"] = "m"
     if "up_axis" not in needed and found.up_axis is None:
         assumed["up_axis"] = "z"
-    for note in found.history:
-        if note.startswith(TAKEN):
-            name, _, text = note.removeprefix(TAKEN).partition(": ")
-            assumed[name] = text
+    for note in map(Note.of, found.history):
+        if note.kind == "assumed" and note.about not in needed:
+            assumed[note.about] = "m" if note.about == "unit" else note.removeprefix(f"taken: {note.about}: ")
     return assumed
 
 

@@ -172,7 +172,7 @@ def test_the_command_line_prepares_and_writes_the_history(tmp_path):
     summary = json.loads((tmp_path / "o" / "summary.json").read_text())
     history = summary["recording"]["history"]
     assert any(line.startswith("cycle 1 of 1") for line in history)
-    assert any("learned with measurement noise smoothed out: " in line for line in history)
+    assert any("learned with its noise smoothed out: " in line for line in history)
     scale = next(float(line.split("scale ")[1].split(",")[0]) for line in history if "scale " in line)
     assert 0.5 <= scale <= 0.7
     assert summary["recording"]["noise"]["position"] == pytest.approx(2e-3 * scale, rel=0.3)

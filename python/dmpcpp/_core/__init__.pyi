@@ -9,9 +9,16 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
-    pass
+    @property
+    def argument(self) -> typing.Any:
+        """
+        Name of the argument that cannot be used; empty where it is no one of them.
+        """
+    @argument.setter
+    def argument(self, arg1: str) -> None:
+        ...
 class FileError(OSError):
     pass
 class Trajectory:
@@ -1312,6 +1319,18 @@ class PoseSpread:
         """
         (K,) 0 to 1
         """
+class LimitSource(enum.Enum):
+    """
+    Where a joint limit comes from.
+    """
+    assumed: typing.ClassVar[LimitSource]
+    maker: typing.ClassVar[LimitSource]
+    unstated: typing.ClassVar[LimitSource]
+    urdf: typing.ClassVar[LimitSource]
+    user: typing.ClassVar[LimitSource]
+    @classmethod
+    def __new__(cls, value):
+        ...
 class Arm:
     """
     The serial chain of n free joints from the link `base` to the link `tip` of a robot.
@@ -1351,9 +1370,18 @@ class Arm:
         """
         sqrt(det(J J^T)), 0 where the arm is singular (Yoshikawa 1985).
         """
-    def with_limits(self, *, lower: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, upper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, effort: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> Arm:
+    def with_limits(self, *, lower: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, upper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, effort: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, jerk: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, source: LimitSource | dict = ...) -> Arm:
         """
         A copy with other joint limits, each of n values; what is None stays.
+        
+        lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N).
+        Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
+        `limit_sources` for each joint. Raises InvalidArgument unless lower < upper and all other limits are > 0.
+        """
+    @property
+    def acceleration_limit(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF cannot.
         """
     @property
     def base(self) -> str:
@@ -1363,12 +1391,17 @@ class Arm:
     @property
     def effort_limit(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (n,) N m or N; inf where the URDF states none.
+        (n,) N m or N; inf where nobody states one.
         """
     @property
     def folder(self) -> str:
         """
-        Folder to which mesh paths are relative; empty if not told.
+        Folder to which mesh paths are relative; empty if unknown.
+        """
+    @property
+    def jerk_limit(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) rad/s^3 or m/s^3; inf where nobody states one.
         """
     @property
     def joint_count(self) -> int:
@@ -1379,6 +1412,11 @@ class Arm:
     def joint_names(self) -> list:
         """
         Names of the n free joints, from base to tip.
+        """
+    @property
+    def limit_sources(self) -> dict:
+        """
+        Where the limits come from: a tuple of n LimitSource for each of position, velocity, acceleration, jerk and effort.
         """
     @property
     def lower(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1408,12 +1446,12 @@ class Arm:
     @property
     def velocity_limit(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (n,) rad/s or m/s; inf where the URDF states none.
+        (n,) rad/s or m/s; inf where nobody states one.
         """
     @property
     def warnings(self) -> list:
         """
-        What is doubtful in the URDF, one sentence each.
+        Non-fatal problems of the URDF, one sentence each.
         """
 class IkStatus(enum.Enum):
     """

@@ -35,16 +35,16 @@ if TYPE_CHECKING:
 @preparation_options
 @arm_options
 @click.option("--pattern", default="*", show_default=True, metavar="GLOB", help="Which files, such as **/*.bvh.")
-@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions in the arm's workspace, or its range; 0.25:1.")
-@click.option("--no-place", is_flag=True, help="Take the poses as poses of the tip in the arm's base frame.")
-@click.option("--basis-count", type=click.IntRange(1, 100000), help="Kernels; by default as many as needed.")
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the search for a placement.")
+@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1).")
+@click.option("--no-place", is_flag=True, help="Use the poses as tip poses in the arm's base frame.")
+@click.option("--basis-count", type=click.IntRange(1, 100000), help="Number of kernels (default: as many as needed).")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the placement.")
 @click.option(
     "--simulator",
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
     type=engines("both"),
-    help="Engine.",
+    help="Physics engine.",
 )
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option("--reports", is_flag=True, help="Also write each run's report.html.")

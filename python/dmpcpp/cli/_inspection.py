@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp._notes import Note
 from dmpcpp.cli._flags import flag, in_flags
 from dmpcpp.cli._group import FAILED
-from dmpcpp.cli._recording_options import NAMES, recording_options, taken_recording
+from dmpcpp.cli._recording_options import NAMES, PREPARATION, recording_options, taken_recording
 from dmpcpp.cli._tables import note_style
 
 if TYPE_CHECKING:
@@ -70,10 +71,10 @@ def _print(found: Inspection) -> None:
         console.print(f"markers beside the bodies (--markers A,B,C): {held}", markup=False, soft_wrap=True)
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
         for name, text in entries.items():
-            said = in_flags(text, NAMES).removeprefix(f"{found.source}: ")  # which stands in the first line
+            said = _in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line
             console.print(f"{title}: {flag(name)}: {said}", markup=False, soft_wrap=True)
     for problem in found.problems:
-        console.print(in_flags(problem, NAMES), style="bold red", markup=False, soft_wrap=True)
+        console.print(_in_flags(problem), style="bold red", markup=False, soft_wrap=True)
     verdict = "ready to be learned" if found.ok else "not ready to be learned"
     console.print(verdict, style="bold green" if found.ok else "bold red")
 
@@ -82,16 +83,20 @@ def _print_history(console: Console, bodies: tuple[BodyReport, ...]) -> None:
     """Print what was done while reading; what all bodies share once."""
     shared = [note for note in _told(bodies[0]) if all(note in body.history for body in bodies)]
     for note in shared:
-        console.print(f"  {in_flags(note)}", style=note_style(note), markup=False, soft_wrap=True)
+        console.print(f"  {_in_flags(note)}", style=note_style(note), markup=False, soft_wrap=True)
     for body in bodies:
         for note in _told(body):
             if note not in shared:
-                console.print(f"  {body.name}: {in_flags(note)}", style=note_style(note), markup=False, soft_wrap=True)
+                console.print(f"  {body.name}: {_in_flags(note)}", style=note_style(note), markup=False, soft_wrap=True)
+
+
+def _in_flags(message: str) -> str:
+    return in_flags(message, (*NAMES, *PREPARATION))
 
 
 def _told(body: BodyReport) -> list[str]:
     """Return the notes on a body; assumptions have lines of their own."""
-    return [note for note in body.history if not note.startswith("taken: ")]
+    return [note for note in body.history if Note.of(note).kind != "assumed"]
 
 
 def _print_parts(console: Console, bodies: tuple[BodyReport, ...]) -> None:
