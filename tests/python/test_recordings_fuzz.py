@@ -36,6 +36,14 @@ STATED = {
     "opensim": {"columns": POSE, "euler_order": "XYZ"},
     "euroc": {},
     "aria": {},
+    "c3d rotation": {"body": "hand"},
+    "hdf5": {"rate": 30.0, "quat_order": "xyzw"},
+    "lerobot": {"dataset": "observation.state", "layout": "x,y,z,quat_xyzw", "rate": 30.0},
+    "zarr": {"rate": 30.0, "episode": 0},
+    "mvnx": {},
+    "hot3d": {},
+    "vicon segments": {"body": "hand", "rotation": "rotvec"},
+    "table long": {"where": "hand=left"},
 }
 
 
@@ -175,6 +183,102 @@ def aria() -> bytes:
     return lines(head, np.column_stack([(33e3 * np.arange(FRAMES)).astype(int), rows()[:, 1:]]), ",")
 
 
+def table_long() -> bytes:
+    twice = [[hand, *row] for row in rows() for hand in ("left", "right")]
+    return lines(["hand,time,x,y,z,qx,qy,qz,qw"], twice, ",")
+
+
+def vicon_segments() -> bytes:
+    head = ["Segments", "30", ",,S:hand", "Frame,Sub Frame,RX,RY,RZ,TX,TY,TZ", ",,rad,rad,rad,mm,mm,mm"]
+    turn = np.tile([0.1, 0.2, 0.3], (FRAMES, 1))
+    return lines(head, np.column_stack([counted(), turn, corners()[:, :3]]).astype(object), ",")
+
+
+def c3d_rotation() -> bytes:
+    def parameter(group, name, kind, shape, data):
+        body = struct.pack("bB", kind, len(shape)) + bytes(shape) + data + b"\0"
+        return struct.pack("bb", len(name), group) + name + struct.pack("<h", len(body) + 2) + body
+
+    section = b"\1\x50\1\x54" + struct.pack("<bb5shb", 5, -1, b"POINT", 3, 0)
+    section += struct.pack("<bb8shb", 8, -2, b"ROTATION", 3, 0)
+    section += parameter(1, b"UNITS", -1, (2,), b"mm") + parameter(1, b"USED", 2, (), struct.pack("<h", 0))
+    for name, value in ((b"USED", 1), (b"RATIO", 1), (b"DATA_START", 3)):
+        section += parameter(2, name, 2, (), struct.pack("<h", value))
+    section += parameter(2, b"RATE", 4, (), struct.pack("<f", 30.0)) + parameter(2, b"LABELS", -1, (8,), b"hand_4X4")
+    header = b"\2\x50" + struct.pack("<5HfHHf", 0, 0, 1, FRAMES, 10, -1.0, 3, 0, 30.0)
+    numbers = np.zeros((FRAMES, 17))
+    numbers[:, [0, 5, 10, 15]] = 1.0
+    numbers[:, 12:15] = corners()[:, :3]
+    return header.ljust(512, b"\0") + section.ljust(512, b"\0") + numbers.astype("<f4").tobytes()
+
+
+def mvnx() -> bytes:
+    frames = "".join(
+        f'<frame index="{k}" type="normal"><orientation>{row[7]} {row[4]} {row[5]} {row[6]}</orientation>'
+        f"<position>{row[1]} {row[2]} {row[3]}</position></frame>\n"
+        for k, row in enumerate(rows())
+    )
+    head = '<mvnx version="4"><subject frameRate="30" segmentCount="1"><segments><segment label="Hand"/></segments>'
+    return f"{head}<frames>{frames}</frames></subject></mvnx>".encode()
+
+
+def hot3d() -> bytes:
+    def line(row):
+        wrist = {"t_xyz": row[1:4].tolist(), "q_wxyz": np.roll(row[4:], 1).tolist()}
+        return json.dumps({"timestamp_ns": int(1e9 * row[0]), "hand_poses": {"0": {"wrist_xform": wrist}}})
+
+    return "\n".join(map(line, rows())).encode()
+
+
+def hdf5(folder) -> bytes:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(folder / "seed.h5", "w") as file:
+        file["data/demo_0/obs/robot0_eef_pos"] = rows()[:, 1:4]
+        file["data/demo_0/obs/robot0_eef_quat"] = rows()[:, 4:]
+    return (folder / "seed.h5").read_bytes()
+
+
+def lerobot(folder) -> bytes:
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    state = pyarrow.FixedSizeListArray.from_arrays(rows()[:, 1:].astype(np.float32).reshape(-1), 7)
+    table = {"observation.state": state, "episode_index": pyarrow.array(np.zeros(FRAMES, dtype=int))}
+    parquet.write_table(pyarrow.table(table), folder / "seed.parquet")
+    return (folder / "seed.parquet").read_bytes()
+
+
+def zarr(folder) -> bytes:
+    package = pytest.importorskip("zarr")
+    path = folder / "seed.zarr.zip"
+    path.unlink(missing_ok=True)
+    with package.storage.ZipStore(path, mode="w") as store:
+        root = package.open_group(store, mode="w", zarr_format=2)
+        root.create_array("data/robot0_eef_pos", data=rows()[:, 1:4])
+        root.create_array("data/robot0_eef_rot_axis_angle", data=0.1 * rows()[:, 1:4])
+        root.create_array("meta/episode_ends", data=np.array([FRAMES]))
+    return path.read_bytes()
+
+
+def foxglove(folder) -> bytes:
+    package = pytest.importorskip("mcap.writer")
+    with (folder / "seed.mcap").open("wb") as file:
+        writer = package.Writer(file)
+        writer.start()
+        channel = writer.register_channel(
+            "/hand", "json", writer.register_schema("foxglove.PoseInFrame", "jsonschema", b"{}")
+        )
+        for k, row in enumerate(rows()):
+            pose = {
+                "position": dict(zip("xyz", row[1:4], strict=True)),
+                "orientation": dict(zip("xyzw", row[4:], strict=True)),
+            }
+            content = {"timestamp": {"sec": k, "nsec": 0}, "frame_id": "world", "pose": pose}
+            writer.add_message(channel, log_time=k, publish_time=k, data=json.dumps(content).encode())
+        writer.finish()
+    return (folder / "seed.mcap").read_bytes()
+
+
 POSES = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
 
 
@@ -262,6 +366,15 @@ MADE = {
     "opensim": ("a.mot", opensim),
     "euroc": ("euroc.csv", euroc),
     "aria": ("aria.csv", aria),
+    "table long": ("long.csv", table_long),
+    "vicon segments": ("segments.csv", vicon_segments),
+    "c3d rotation": ("rotation.c3d", c3d_rotation),
+    "mvnx": ("a.mvnx", mvnx),
+    "hot3d": ("a.jsonl", hot3d),
+    "hdf5": ("a.h5", hdf5),
+    "lerobot": ("a.parquet", lerobot),
+    "zarr": ("a.zarr.zip", zarr),
+    "ros foxglove": ("foxglove.mcap", foxglove),
 }
 KINDS = list(MADE)
 

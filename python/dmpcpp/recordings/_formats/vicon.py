@@ -64,7 +64,7 @@ class _Section:
     def bodies(self) -> dict[str, dict[str, int]]:
         """Return the bodies with the columns of what they hold."""
         starts = [k for k, cell in enumerate(self.columns) if cell == "RX"]
-        ends = [*starts[1:], len(self.columns)]
+        ends = [*starts[1:], len(self.columns)][: len(starts)]
         named = dict(zip(distinct([self.named(k) for k in starts]), zip(starts, ends, strict=True), strict=True))
         held = {name: {self.columns[k]: k for k in reversed(range(*span))} for name, span in named.items()}
         return {
