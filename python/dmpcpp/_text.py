@@ -7,13 +7,14 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 
 from dmpcpp._typing import Array
 from dmpcpp.errors import FileError, InvalidArgument
 
-__all__ = ["Cells", "Row", "data_lines", "number", "read_bytes", "read_text", "split", "split_all"]
+__all__ = ["Cells", "Lines", "Row", "data_lines", "number", "read_bytes", "read_text", "split", "split_all"]
 
 
 def read_bytes(path: Path, size: int = -1) -> bytes:
@@ -106,7 +107,7 @@ class Cells:
         What an error about a cell ends with, where the caller could have stated that it marks a lost number.
     """
 
-    rows: list[Row]
+    rows: Sequence[Row]
     blank: bool = False
     nan: bool = False
     mark: str = ""
@@ -120,10 +121,7 @@ class Cells:
         InvalidArgument
             Naming the line and the column of what is not a finite number.
         """
-        try:
-            values = np.array([[float(cells[c]) for c in columns] for _, cells in self.rows])
-        except (ValueError, IndexError):
-            values = np.full((0, 0), np.nan)
+        values = _plain_numbers(self.rows, columns)
         if values.size and np.isfinite(values).all():  # the common case at a tenth of the time
             return values
         pairs = list(zip(columns, names, strict=True))
@@ -161,6 +159,46 @@ class Cells:
 def split_all(lines: Iterable[tuple[int, str]], delimiter: str) -> list[Row]:
     """Return (line number, cells) of (line number, text)."""
     return [(line, split(text, delimiter, line)) for line, text in lines]
+
+
+class Lines(Sequence[Row]):
+    """Lines of a table, (line number, text), that are split when they are asked for: long tables stay small."""
+
+    def __init__(self, lines: Sequence[tuple[int, str]], delimiter: str) -> None:
+        """Take the lines; a list, or a part of one."""
+        self.lines, self.delimiter = lines, delimiter
+
+    def __len__(self) -> int:
+        """Return the number of lines."""
+        return len(self.lines)
+
+    @overload
+    def __getitem__(self, index: int) -> Row: ...
+    @overload
+    def __getitem__(self, index: slice) -> Lines: ...
+    def __getitem__(self, index: int | slice) -> Row | Lines:
+        """Return one line's number and cells, or a part of the lines."""
+        if isinstance(index, slice):
+            return Lines(self.lines[index], self.delimiter)
+        line, text = self.lines[index]
+        return line, split(text, self.delimiter, line)
+
+    def __iter__(self) -> Iterator[Row]:
+        """Yield number and cells of each line."""
+        return ((line, split(text, self.delimiter, line)) for line, text in self.lines)
+
+
+def _plain_numbers(rows: Sequence[Row], columns: Sequence[int]) -> Array:
+    """Return columns as numbers (T, len(columns)) where all their cells are; else none."""
+    try:
+        if isinstance(rows, Lines) and rows and len(columns):
+            delimiter = None if rows.delimiter == " " else rows.delimiter
+            texts = (text for _, text in rows.lines)
+            read = np.loadtxt(texts, comments=None, delimiter=delimiter, usecols=list(columns), ndmin=2)
+            return read if len(read) == len(rows) else np.full((0, 0), np.nan)
+        return np.array([[float(cells[c]) for c in columns] for _, cells in rows])
+    except (ValueError, IndexError):
+        return np.full((0, 0), np.nan)
 
 
 def split(text: str, delimiter: str, line: int) -> list[str]:

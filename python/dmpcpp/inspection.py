@@ -38,6 +38,7 @@ from dmpcpp.recordings import (
 __all__ = ["BodyReport", "Inspection", "MarkerReport", "inspect"]
 
 _T = TypeVar("_T")
+_How = motion.Preparation | None
 
 _STAND_INS: dict[str, Any] = {
     "unit": 1.0,
@@ -62,10 +63,11 @@ class BodyReport:
 
     `noise_position` and `noise_angle` are standard deviations along and about one axis, see `motion.noise`; `extent` is
     the range along x, y and z; `missing` counts samples that the file marks as lost, `skipped` those that were never
-    written, see `motion.skipped`; `jumps` counts turns of more than 90 deg between neighbouring samples; `steps` are
-    the least, the usual (median) and the largest time from one sample to the next. `implausible` says why this cannot
-    be the motion of a hand, see `motion.implausible`. `refused` says why the body cannot be read, and then nothing
-    else is known.
+    written, see `motion.skipped`; `allowed_gap` is the longest that is filled; `jumps` counts turns of more than 90 deg
+    between neighbouring samples; `steps` are the least, the usual and the largest time from one sample to the next.
+    `cycles` and `segments` are the parts (begin, end) that `--repetition` and `--segment` choose from; `made_up` says
+    why its gaps cannot be filled. `implausible` says why this cannot be the motion of a hand, see
+    `motion.implausible`. `refused` says why the body cannot be read, and then nothing else is known.
     """
 
     name: str
@@ -75,6 +77,7 @@ class BodyReport:
     missing: int = 0
     skipped: int = 0
     longest_gap: float = 0.0
+    allowed_gap: float = LONGEST_GAP
     jumps: int = 0
     noise_position: float = 0.0
     noise_angle: float = 0.0
@@ -157,12 +160,14 @@ def inspect(
     format: str | None = None,
     *,
     markers: Sequence[str] | None = None,
+    preparation: motion.Preparation | None = None,
     **stated: object,
 ) -> Inspection:
     """Look into a file; what it does not say is reported rather than refused.
 
     Parameters and errors are those of `recordings.load`, but for what must be stated: without it, the report says so,
-    of all at once that can be known. Without `body` all bodies are looked at.
+    of all at once that can be known. Without `body` all bodies are looked at. With a `preparation` a body is looked at
+    as it will be learned: the part that is chosen, and gaps up to `longest_gap` are no problem.
     """
     path = Path(path)
     try:
@@ -170,13 +175,14 @@ def inspect(
     except NotStated as error:
         return Inspection(path.name, "unknown", needed=dict.fromkeys(error.names, str(error)))
     if markers is not None and reader.markers is not None:
-        return _of_markers(reader, path, said, body, markers)
+        return _of_markers(reader, path, said, body, markers, preparation)
     held = _attempt(lambda said: reader.call(reader.bodies, path, said), said)
     if held.result is None:
         return Inspection(path.name, reader.name, needed=held.needed)
     if markers is not None or (not held.result and reader.markers is not None):
-        return _of_markers(reader, path, said, body, markers)
-    return replace(_of_bodies(reader, path, said, held.result, body), markers_held=_beside(reader, path, said))
+        return _of_markers(reader, path, said, body, markers, preparation)
+    found = _of_bodies(reader, path, said, held.result, body, preparation)
+    return replace(found, markers_held=_beside(reader, path, said))
 
 
 def _beside(reader: Reader, path: Path, said: Stated) -> tuple[str, ...]:
@@ -219,7 +225,9 @@ def _attempt(read: Callable[[Stated], _T], said: Stated) -> _Attempt[_T]:
             return _Attempt(None, needed, str(error))
 
 
-def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], body: str | None) -> Inspection:
+def _of_bodies(
+    reader: Reader, path: Path, said: Stated, held: tuple[str, ...], body: str | None, how: _How
+) -> Inspection:
     reports: list[BodyReport] = []
     needed: dict[str, str] = {}
     assumed: dict[str, str] = {}
@@ -232,11 +240,11 @@ def _of_bodies(reader: Reader, path: Path, said: Stated, held: tuple[str, ...], 
         elif found.result is not None:
             assumed = _assumed(found.result, needed)
             if not found.needed:  # with a stand-in for a unit, say, its figures would be wrong
-                reports.append(_report(found.result))
+                reports.append(_report(found.result, how))
         if found.needed:
             break  # the other bodies of the file lack the same
     if len(names) > 1:
-        needed["body"] = f"the file holds several: {', '.join(held)}"
+        needed["body"] = f"the file holds several: {', '.join(held)}. Specify one: body={held[0]!r}"
     return Inspection(path.name, reader.name, held, tuple(reports), needed=needed, assumed=assumed)
 
 
@@ -254,7 +262,9 @@ def _recording(reader: Reader, path: Path, name: str, said: Stated) -> Recording
     return reader.call(reader.read, path, name, said)
 
 
-def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, names: Sequence[str] | None) -> Inspection:
+def _of_markers(
+    reader: Reader, path: Path, said: Stated, body: str | None, names: Sequence[str] | None, how: _How
+) -> Inspection:
     if reader.markers is None:
         raise InvalidArgument(f"{path.name}: markers: the format {reader.name!r} holds none.")
     attempt = _attempt(partial(reader.call, reader.markers, path), said)
@@ -272,7 +282,7 @@ def _of_markers(reader: Reader, path: Path, said: Stated, body: str | None, name
     if names is None:
         needed["markers"] = "three or more that sit on one rigid body"
     else:
-        bodies = (_report(reader.call(lambda _: of_markers(found, names, body, said.fixed_orientation), path)),)
+        bodies = (_report(reader.call(lambda _: of_markers(found, names, body, said.fixed_orientation), path), how),)
     return Inspection(
         source=path.name,
         format=reader.name,
@@ -297,7 +307,11 @@ def _assumed(found: Recording | Markers, needed: dict[str, str]) -> dict[str, st
     return assumed
 
 
-def _report(recording: Recording) -> BodyReport:
+def _report(recording: Recording, how: _How = None) -> BodyReport:
+    try:
+        recording = _part_of(recording, how)
+    except InvalidArgument as error:
+        return BodyReport(recording.body, refused=str(error))
     there = ~recording.missing
     time, position = recording.time[there], recording.position[there]
     steps = np.diff(time)
@@ -313,6 +327,7 @@ def _report(recording: Recording) -> BodyReport:
         made_up=_made_up(recording),
         **_parts(recording),
         longest_gap=_longest_gap(recording.time, there),
+        allowed_gap=LONGEST_GAP if how is None else how.longest_gap,
         jumps=int((turned > _JUMP).sum()),
         noise_position=noise.position,
         noise_angle=noise.angle,
@@ -361,6 +376,15 @@ def _longest_gap(time: Array, there: NDArray[np.bool_]) -> float:
     return max((gap.duration for gap in motion.gaps_in(time, there)), default=0.0)
 
 
+def _part_of(recording: Recording, how: _How) -> Recording:
+    """Return the part of a recording that a preparation chooses."""
+    if how is None:
+        return recording
+    if how.segment is not None or how.repetition is not None:
+        return motion.prepare(recording, how)
+    return motion.crop(recording, how.start, how.end) if how.start or how.end is not None else recording
+
+
 def _made_up(recording: Recording) -> str:
     """Return why a recording needs more samples than it carries, "" of one that does not."""
     there = int((~recording.missing).sum())
@@ -373,7 +397,7 @@ def _made_up(recording: Recording) -> str:
 def _parts(recording: Recording) -> dict[str, Any]:
     """Return the segments and cycles of a recording that is whole enough to look for them."""
     try:
-        whole = motion.fill(recording, longest=max(recording.duration, LONGEST_GAP))
+        whole = motion.fill(motion.thinned(recording), longest=max(recording.duration, LONGEST_GAP))
     except InvalidArgument:
         return {}
     return {"cycles": motion.spans_of_cycles(whole), "segments": motion.spans_of_segments(whole)}
@@ -385,12 +409,11 @@ def _problems(body: BodyReport) -> list[str]:
     problems = [f"{body.name}: {body.implausible}"] if body.implausible else []
     if body.made_up:
         problems.append(f"{body.name}: {body.made_up}")
-    if body.longest_gap > LONGEST_GAP:
+    if body.longest_gap > body.allowed_gap:
         allowed = float(np.ceil(100.0 * body.longest_gap) / 100.0)
         problems.append(
-            f"{body.name}: a gap of {body.longest_gap:.3g} s, more than {LONGEST_GAP:g} s. longest_gap={allowed:g} "
-            f"fills it; "
-            "or use one side of it: `fit` and `imitate` take start, end and segment."
+            f"{body.name}: a gap of {body.longest_gap:.3g} s, more than {body.allowed_gap:g} s. "
+            f"longest_gap={allowed:g} fills it; or use one side of it: `fit` and `imitate` take start, end and segment."
         )
     if body.jumps:
         problems.append(

@@ -108,7 +108,7 @@ def test_every_body_is_looked_at_and_one_is_to_be_named(tmp_path):
     (tmp_path / "two.csv").write_text("\n".join([header, *(",".join(row + row[1:]) for row in rows)]))
     found = inspect(tmp_path / "two.csv", unit="m", up_axis="z")
     assert [body.name for body in found.bodies] == ["hand", "cup"]
-    assert found.needed == {"body": "the file holds several: hand, cup"}
+    assert found.needed == {"body": "the file holds several: hand, cup. Specify one: body='hand'"}
     assert inspect(tmp_path / "two.csv", "cup", unit="m", up_axis="z").ok
 
 

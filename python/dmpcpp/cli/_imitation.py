@@ -135,8 +135,8 @@ def imitate(
     names = ("out", "seed", "basis_count", "simulator", "formats", "no_report", "as_json")
     run = {name: options.pop(name) for name in names}
     recording = recordings.load(file, **taken_recording(options))
-    recording = motion.prepare(recording, preparation)
-    _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, **placing, **run)
+    recording, *others = motion.prepare_all(recording, preparation)
+    _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, others=others, **placing, **run)
 
 
 def _carry_out(

@@ -13,6 +13,7 @@ import click
 from dmpcpp._notes import Note
 from dmpcpp.cli._flags import flag, in_flags
 from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._options import preparation_options, taken_preparation
 from dmpcpp.cli._recording_options import NAMES, PREPARATION, recording_options, taken_recording
 from dmpcpp.cli._tables import note_style
 
@@ -30,8 +31,12 @@ _JITTER = 0.5  # of the usual step; a shorter one is worth a word
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @recording_options
+@preparation_options
+@click.option(
+    "--plot", metavar="FILE.png|show", help="Draw path, coordinates, gaps, rests and noise into a file, or a window."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON (m, s, rad) instead of the tables.")
-def inspect(file: Path, as_json: bool, **options: Any) -> None:
+def inspect(file: Path, plot: str | None, as_json: bool, **options: Any) -> None:
     """Show what FILE holds: bodies or markers, rate, gaps, jumps, noise, extent, and what is missing.
 
     FILE is a recording: BVH, C3D, TRC, MOT, ROS bag or MCAP, Qualisys TSV, Motive, Vicon, EuRoC or Aria CSV, TUM, a
@@ -42,13 +47,55 @@ def inspect(file: Path, as_json: bool, **options: Any) -> None:
     """
     from dmpcpp import inspection
 
-    found = inspection.inspect(file, **taken_recording(options))
+    preparation, _ = taken_preparation(options)
+    stated = taken_recording(options)
+    found = inspection.inspect(file, preparation=preparation, **stated)
     if as_json:
         click.echo(json.dumps(found.summary(), indent=2, allow_nan=False))
     else:
         _print(found)
+    if plot is not None:
+        _draw(file, found, plot, stated)
     if not found.ok:
         sys.exit(FAILED)
+
+
+def _draw(file: Path, found: Inspection, plot: str, stated: dict[str, Any]) -> None:
+    """Draw the only body that was read into a PNG, or show it."""
+    import tempfile
+
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    from dmpcpp import motion, recordings
+    from dmpcpp.errors import InvalidArgument
+    from dmpcpp.show import plot as drawing
+
+    read = [body for body in found.bodies if not body.refused]
+    if len(read) != 1:
+        raise InvalidArgument(
+            f"--plot: {len(read)} bodies were read, expected one. Specify what is asked above, then draw."
+        )
+    recording = recordings.load(file, **stated)
+    there = ~recording.missing
+    turn = np.full((len(recording), 3), np.nan)
+    turns = Rotation.from_matrix(recording.rotation[there])
+    turn[there] = (turns[0].inv() * turns).as_rotvec()
+    page = drawing.recorded(
+        recording.time,
+        recording.position,
+        turn,
+        gaps=[(gap.start, gap.end) for gap in motion.gaps(recording)],
+        motions=read[0].segments,
+        noise=(read[0].noise_position, read[0].noise_angle),
+        title=f"{found.source}: {recording.body}",
+        note=f"{read[0].samples} samples, {read[0].rate:.4g} Hz; bands: two standard deviations of the noise",
+    )
+    shown = plot == "show"
+    path = drawing.save(page, Path(tempfile.mkdtemp()) / "recording.png" if shown else plot)
+    click.echo(f"drawn into {path}", err=True)
+    if shown:
+        click.launch(str(path))
 
 
 def _print(found: Inspection) -> None:

@@ -90,7 +90,8 @@ def fit(
     preparation, smooth = taken_preparation(options)
     stated = taken_recording(options)
     files = _without(files, leave_out)
-    found = [motion.prepare(recordings.load(file, **stated), preparation) for file in files]
+    loaded = [recordings.load(file, **stated) for file in files]
+    found = [part for recording in loaded for part in motion.prepare_all(recording, preparation)]
     if arm is not None:
         found = planning.placed(found, arms.load(arm, base, tip), scale=scale_range(scale), seed=seed)
     elif base or tip or scale:

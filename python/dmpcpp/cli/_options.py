@@ -44,6 +44,18 @@ def arm_options(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
+class _Repetition(click.ParamType):
+    """A number from 1, or "all"."""
+
+    name = "repetition"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int | str:
+        """Return the number, or "all"."""
+        if value == "all":
+            return "all"
+        return click.IntRange(1).convert(value, param, ctx)
+
+
 def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options to a command; `taken_preparation` takes them out of its arguments."""
     options = (
@@ -66,9 +78,10 @@ def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
         ),
         click.option(
             "--repetition",
-            type=click.IntRange(1),
-            metavar="K",
-            help="Use only the K-th whole cycle (away from the start and back), counted from 1.",
+            type=_Repetition(),
+            metavar="K|all",
+            help="Use only the K-th whole cycle (away from the start and back), counted from 1; all: learn "
+            "them together (fit, imitate).",
         ),
         click.option(
             "--resample", type=click.FloatRange(0, min_open=True), metavar="HZ", help="Resample at this rate."

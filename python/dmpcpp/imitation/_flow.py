@@ -9,7 +9,7 @@ Every stage is a value that can be looked at on its own; each step here is one c
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -19,7 +19,7 @@ from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._engines import default_engine
 from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.learning import Evidence, evidence, learn, reproduction, reproduction_checks
+from dmpcpp.learning import Evidence, Lesson, evidence, learn, reproduction, reproduction_checks, teach
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.planning import Engine, Placement, clear_of_itself, solve
@@ -119,6 +119,7 @@ def imitate(
     scale: tuple[float, float] = (0.25, 1.0),
     smooth: bool = True,
     basis_count: int | None = None,
+    others: Sequence[Recording] = (),
     simulator: str | None = None,
     progress: Progress | None = None,
 ) -> Imitation:
@@ -139,6 +140,9 @@ def imitate(
         Whether noise found in the recording may be smoothed out in learning; the recording's history says so.
     basis_count : int, optional
         Kernels of the model; by default as many as the motion needs.
+    others : sequence of Recording
+        More demonstrations of the same motion, in the same frame: they are placed as the first one and learned with it,
+        and no single one of them is then what the model has to reproduce.
     simulator : {"bullet", "mujoco", "both"}, optional
         The physics engine; unless given "bullet", or "mujoco" where that alone is installed. With both, Bullet is
         the one that everything is measured in, MuJoCo executes the same joints, and checks say how far the two are
@@ -165,7 +169,8 @@ def imitate(
     tell("learn", 0.0)
     demonstration = motion.demonstration(placed)
     found = evidence(demonstration, smooth=smooth)
-    model = learn(demonstration, basis_count, smooth=smooth)
+    lesson = _together(placed, others, placement, basis_count, smooth) if others else None
+    model = lesson.model if lesson else learn(demonstration, basis_count, smooth=smooth)
     placed = _noted(placed, found)
     tell("solve", 0.0)
     solution = solve(model, arm, start=placement.start if placement else None, engine=engines[0])
@@ -179,10 +184,20 @@ def imitate(
         "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
         "ik_to_executed": log.errors,
     }
-    checks = (*reproduction_checks(model, found), *path_checks, *log.verdict.checks)
+    reproduced = lesson.checks if lesson else reproduction_checks(model, found)
+    checks = (*reproduced, *path_checks, *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
     return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second)
+
+
+def _together(
+    first: Recording, others: Sequence[Recording], placement: Placement | None, basis_count: int | None, smooth: bool
+) -> Lesson:
+    """Return what is learned from the first recording, as it was placed, and others in the same frame."""
+    whole = [motion.plausible(motion.continuous(recording)) for recording in others]
+    placed = [placement.apply_to(recording) for recording in whole] if placement else whole
+    return teach([first, *placed], basis_count=basis_count, smooth=smooth)
 
 
 def _engines(simulator: str) -> tuple[Engine, ...]:

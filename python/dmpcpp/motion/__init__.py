@@ -12,6 +12,7 @@ out. Every other step asks for whole recordings.
 
 from dmpcpp.motion._alignment import Spread, aligned, mean, medoid, spread
 from dmpcpp.motion._cleaning import LONGEST_GAP, Gap, fill, gaps, gaps_in, outliers, skipped, split
+from dmpcpp.motion._long import one_motion, thinned
 from dmpcpp.motion._plausibility import implausible, plausible
 from dmpcpp.motion._poses import (
     complete,
@@ -23,7 +24,7 @@ from dmpcpp.motion._poses import (
     relative_to_pose,
     turn_angles,
 )
-from dmpcpp.motion._preparation import Preparation, prepare
+from dmpcpp.motion._preparation import Preparation, prepare, prepare_all
 from dmpcpp.motion._segmentation import cycles, segments, spans_of_cycles, spans_of_segments, speed
 from dmpcpp.motion._smoothing import Noise, low_pass, noise, smooth, white_noise
 from dmpcpp.motion._timing import crop, refine, resample
@@ -48,10 +49,12 @@ __all__ = [
     "mean",
     "medoid",
     "noise",
+    "one_motion",
     "outliers",
     "plausible",
     "poses",
     "prepare",
+    "prepare_all",
     "quaternions",
     "refine",
     "relative_to",
@@ -65,6 +68,7 @@ __all__ = [
     "speed",
     "split",
     "spread",
+    "thinned",
     "turn_angles",
     "white_noise",
 ]

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._cleaning import LONGEST_GAP, fill, outliers
+from dmpcpp.motion._long import one_motion
 from dmpcpp.motion._segmentation import cycles, segments
 from dmpcpp.motion._smoothing import evenly_sampled, low_pass, smooth
 from dmpcpp.motion._timing import crop, resample
 from dmpcpp.recordings import Recording
 
-__all__ = ["Preparation", "prepare"]
+__all__ = ["Preparation", "prepare", "prepare_all"]
 
 _OUTLIER_WINDOW = 11  # samples; a shorter recording has no neighbours to ask
 
@@ -30,8 +32,8 @@ class Preparation:
         Whether samples that lie far from where their neighbours say they should are replaced.
     segment : int, optional
         Use this part of the motion only, counted from 1, of those between its rests (`motion.segments`).
-    repetition : int, optional
-        Likewise of its whole cycles (`motion.cycles`).
+    repetition : int or "all", optional
+        Likewise of its whole cycles (`motion.cycles`); all of them are for `prepare_all`.
     resample : float, optional
         Hz; samples at an even rate.
     low_pass : float, optional
@@ -45,7 +47,7 @@ class Preparation:
     longest_gap: float = LONGEST_GAP
     outliers: bool = True
     segment: int | None = None
-    repetition: int | None = None
+    repetition: int | Literal["all"] | None = None
     resample: float | None = None
     low_pass: float | None = None
     smooth: bool = False
@@ -63,10 +65,44 @@ def prepare(recording: Recording, how: Preparation | None = None) -> Recording:
         What the steps refuse; a part that is not there; a segment and a repetition at once.
     """
     how = how or Preparation()
+    if how.repetition == "all":
+        raise InvalidArgument(
+            "repetition: 'all' is several recordings, which `fit` and `imitate` learn together (`motion.prepare_all`). "
+            "Specify one of them: repetition=1."
+        )
+    return _finished(_part(_whole(recording, how), how), how)
+
+
+def prepare_all(recording: Recording, how: Preparation | None = None) -> list[Recording]:
+    """Return what `prepare` does, or with `repetition="all"` each whole cycle of the recording prepared like that.
+
+    Raises
+    ------
+    InvalidArgument
+        See `prepare`; a recording without a whole cycle.
+    """
+    how = how or Preparation()
+    if how.repetition != "all":
+        return [prepare(recording, how)]
+    if how.segment is not None:
+        raise InvalidArgument("segment, repetition: both are stated, expected one of them at most.")
+    found = cycles(_whole(recording, how))
+    if not found:
+        raise InvalidArgument("repetition: 'all', but there is no whole cycle in this recording.")
+    return [_finished(each, how) for each in found]
+
+
+def _whole(recording: Recording, how: Preparation) -> Recording:
+    """Return the recording cropped, its gaps filled and its outliers taken out."""
     if how.start or how.end is not None:
         recording = crop(recording, how.start, how.end)
-    recording = _repaired(recording, how)
-    recording = _part(recording, how)
+    if how.segment is None and how.repetition is None:
+        recording = one_motion(recording)
+    return _repaired(recording, how)
+
+
+def _finished(recording: Recording, how: Preparation) -> Recording:
+    """Return a part resampled and filtered."""
     if how.resample is not None:
         recording = resample(recording, how.resample)
     if how.low_pass is not None:
@@ -87,7 +123,7 @@ def _part(recording: Recording, how: Preparation) -> Recording:
         raise InvalidArgument("segment, repetition: both are stated, expected one of them at most.")
     if how.segment is not None:
         return _chosen("segment", how.segment, segments(recording))
-    if how.repetition is not None:
+    if isinstance(how.repetition, int):
         return _chosen("repetition", how.repetition, cycles(recording))
     return recording
 

@@ -17,6 +17,7 @@ from dmpcpp.recordings import Recording
 __all__ = ["Noise", "evenly_sampled", "low_pass", "noise", "smooth", "white_noise"]
 
 _DIFFERENCED = 7  # samples in a row
+_BLOCK = 50_000  # samples looked at together
 _EVEN = 0.1  # largest deviation of a step from the mean step that a filter for even sampling bears
 
 
@@ -52,10 +53,17 @@ def white_noise(time: Array, values: Array) -> float:
     """Return the standard deviation, along one axis, of the noise in values (T, d) at times (T,) [s] that are free in
     three directions: positions of a marker, say. NaN where they are missing; see `noise`.
     """
+    ends = range(0, max(1, len(time) - _DIFFERENCED + 1), _BLOCK)  # in blocks, so that memory stays small
+    parts = [slice(k, k + _BLOCK + _DIFFERENCED - 1) for k in ends]
+    left = np.concatenate([_deviations(time[part], values[part]) for part in parts])
+    return float(np.sqrt(np.sum(left**2) / (3 * len(left)))) if len(left) else 0.0
+
+
+def _deviations(time: Array, values: Array) -> Array:
+    """Return the weighted deviations (K, d) of seven samples in a row, where seven known ones stand in a row."""
     window = sliding_window_view(values, _DIFFERENCED, axis=0)
     there = np.isfinite(window).all(axis=(1, 2))
-    left = np.einsum("kj,kdj->kd", _difference_weights(time)[there], window[there])
-    return float(np.sqrt(np.sum(left**2) / (3 * len(left)))) if len(left) else 0.0
+    return np.asarray(np.einsum("kj,kdj->kd", _difference_weights(time)[there], window[there]))
 
 
 def smooth(recording: Recording) -> Recording:

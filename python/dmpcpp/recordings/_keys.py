@@ -18,6 +18,7 @@ TAKE_KEYS = frozenset(("take", "trial", "episode", "episode_index", "demo", "dem
 
 _MOST_VALUES = 0.25  # share of the rows; a column with more values is a measurement or a counter
 _PERIODIC = 0.9  # share of rows whose value comes again after one round of all values
+_LOOKED_AT = 200  # rows that show whether a column can be a key
 _SHOWN = 30  # values that a message lists
 
 
@@ -63,13 +64,21 @@ def keys_in(header: Sequence[str], rows: Sequence[Row], used: Sequence[int], tim
         The column of times.
     """
     found = []
-    clock = _numbers(rows, time)
+    candidates = [
+        (column, name, _plain(name) in BODY_KEYS | TAKE_KEYS)
+        for column, name in enumerate(header)
+        if column not in used
+    ]
+    first = rows[:_LOOKED_AT]
+    candidates = [
+        (column, name, known)
+        for column, name, known in candidates
+        if known or not any(map(_is_measurement, _column(first, column)))
+    ]
+    clock = _numbers(rows, time) if candidates else None
     disordered = clock is not None and not (np.diff(clock) > 0.0).all()
-    for column, name in enumerate(header):
-        if column in used:
-            continue
+    for column, name, known in candidates:
         values = _column(rows, column)
-        known = _plain(name) in BODY_KEYS | TAKE_KEYS
         unique = tuple(dict.fromkeys(values))
         if len(unique) < 2 or (not known and not _may_be_key(unique, len(rows))):
             continue

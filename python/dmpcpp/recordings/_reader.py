@@ -110,5 +110,6 @@ def pick_body(body: str | None, available: Sequence[str]) -> str:
         return str(body)
     held = f"It holds: {', '.join(available) or 'none'}."
     if body is None and available:
-        raise NotStated("body", f"body: no body named and the file holds several. {held}")
+        one = f"Specify one: body={available[0]!r}."
+        raise NotStated("body", f"body: no body named and the file holds several. {held} {one}")
     raise InvalidArgument(f"body: no body {body!r} in the file. {held}")

@@ -122,7 +122,9 @@ class Recording:
 
 
 def _owned(name: str, values: ArrayLike) -> Array:
-    """Return a read-only float64 C-contiguous copy."""
+    """Return a read-only float64 C-contiguous copy; an array that is one already is taken as it is."""
+    if type(values) is np.ndarray and values.dtype == np.float64 and not values.flags.writeable and values.base is None:
+        return np.ascontiguousarray(values)
     try:
         array = np.array(values, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError) as error:
@@ -195,7 +197,7 @@ def _check_rotation(rotation: Array, missing: NDArray[np.bool_]) -> None:
             f"rotation[{k}]: |R^T R - I| = {error[k]:.3g}, expected at most {_ROTATION_TOLERANCE:g}. "
             "Orthonormalise the matrices."
         )
-    determinant = np.linalg.det(rotation)
+    determinant = np.einsum("ti,ti->t", rotation[:, 0], np.cross(rotation[:, 1], rotation[:, 2]))
     if (determinant < 0.0).any():
         k = int(np.argmax(determinant < 0.0))
         raise InvalidArgument(

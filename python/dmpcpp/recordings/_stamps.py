@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dmpcpp._typing import Array
 from dmpcpp.errors import NotStated
 
-__all__ = ["MADE_UP_EACH", "MADE_UP_IN_ALL", "too_many", "usual_step", "without_bursts"]
+__all__ = ["MADE_UP_EACH", "MADE_UP_IN_ALL", "likely_rate", "too_many", "usual_step", "without_bursts"]
 
 MADE_UP_EACH, MADE_UP_IN_ALL = 10, 1_000_000
 """Most samples that a step may add: for each sample that was recorded, and altogether."""
@@ -77,7 +77,7 @@ def without_bursts(time: Array, position: Array, clock: float) -> tuple[NDArray[
     raise NotStated(
         "rate",
         f"rate: the stamps lie in bursts: {said}. They tell when samples were written, not when they were taken. "
-        f"State the rate of the device, by the usual step rate={_rounded(1.0 / (clock * usual)):g}.",
+        f"State the rate of the device, by the usual step rate={likely_rate(1.0 / (clock * usual)):g}.",
     )
 
 
@@ -90,7 +90,7 @@ def _are_pairs(short: NDArray[np.bool_], position: Array) -> bool:
     return float(np.median(moved[short])) < _PAIR_MOTION * float(np.median(moved[~short]))
 
 
-def _rounded(rate: float) -> float:
+def likely_rate(rate: float) -> float:
     """Return a rate [Hz] as a device would have it: a whole number where it is within 1 % of one."""
     whole = round(rate)
     return float(whole) if whole and abs(rate / whole - 1.0) < 0.01 else float(f"{rate:.4g}")

@@ -181,7 +181,9 @@ class Stated:
         rows, notes = block(time, self.episode)
         if self.rate is not None:
             return rows, notes
-        kept, sorted_notes = in_order(time[rows], *(array[rows] for array in values), sort=self.sort_times)
+        kept, sorted_notes = in_order(
+            time[rows], *(array[rows] for array in values), sort=self.sort_times, clock=frame.clock
+        )
         rows = rows[kept]
         if len(rows) >= MIN_SAMPLES and np.isfinite(time[rows]).all():
             kept, burst_notes = without_bursts(time[rows], values[0][rows], frame.clock)

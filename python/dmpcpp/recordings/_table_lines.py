@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dmpcpp._text import Row, data_lines, split, split_all
+from dmpcpp._text import Lines, Row, data_lines, split
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._columns import known_unit
 
@@ -25,7 +26,7 @@ class TableLines:
     names stand in a comment above the data, as NumPy writes them.
     """
 
-    rows: list[Row]
+    rows: Sequence[Row]
     names: list[str]
     units: list[str]
     delimiter: str
@@ -57,7 +58,7 @@ def table_lines(text: str, delimiter: str | None, skip: int = 0) -> TableLines:
     data = lines[headed + bool(units) :]
     data, notes = _with_points(data, delimiter)
     notes = [*several, *notes]
-    return TableLines(split_all(data, delimiter), names, units, delimiter, bool(names) and not headed, notes)
+    return TableLines(Lines(data, delimiter), names, units, delimiter, bool(names) and not headed, notes)
 
 
 def _with_one_header(lines: list[tuple[int, str]], delimiter: str) -> tuple[list[tuple[int, str]], list[str]]:

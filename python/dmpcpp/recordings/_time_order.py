@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._recording import MIN_SAMPLES
+from dmpcpp.recordings._stamps import likely_rate
 
 __all__ = ["block", "in_order"]
 
@@ -55,7 +56,9 @@ def _begins(time: Array) -> list[int]:
     return begins if len(time) - begins[-1] >= MIN_SAMPLES else begins[:-1] or [0]
 
 
-def in_order(time: Array, *values: Array, sort: bool | None = None) -> tuple[NDArray[np.int_], list[str]]:
+def in_order(
+    time: Array, *values: Array, sort: bool | None = None, clock: float = 1.0
+) -> tuple[NDArray[np.int_], list[str]]:
     """Return which samples to keep, in the order of their times, and the corrections made.
 
     A sample that repeats the one before, time and values alike, is left out. With `sort` samples are sorted by their
@@ -68,6 +71,8 @@ def in_order(time: Array, *values: Array, sort: bool | None = None) -> tuple[NDA
     *values : array (T, ...)
         What was sampled; NaN where lost.
     sort : bool, optional
+    clock : float
+        Seconds in the unit of `time`.
 
     Raises
     ------
@@ -86,7 +91,7 @@ def in_order(time: Array, *values: Array, sort: bool | None = None) -> tuple[NDA
     if (steps > 0.0).all():
         return kept, notes
     if not sort:
-        raise _refusal(time, kept, steps)
+        raise _refusal(time, kept, steps, clock)
     ordered = kept[np.argsort(time[kept], kind="stable")]
     first = np.concatenate(([True], np.diff(time[ordered]) > 0.0))
     notes.append(f"samples sorted by their times, {int((steps < 0.0).sum())} steps back in time")
@@ -104,14 +109,16 @@ def _repeats(time: Array, values: tuple[Array, ...]) -> NDArray[np.bool_]:
     return np.concatenate(([False], same))
 
 
-def _refusal(time: Array, kept: NDArray[np.int_], steps: Array) -> InvalidArgument:
+def _refusal(time: Array, kept: NDArray[np.int_], steps: Array, clock: float) -> InvalidArgument:
     k = int(np.argmax(steps <= 0.0)) + 1
     what = f"time[{kept[k]}]: {time[kept[k]]:.15g} after {time[kept[k - 1]]:.15g}, expected strictly increasing times."
     if (steps == 0.0).mean() > _CUT_OFF:
+        span = clock * float(np.ptp(time[kept]))
+        mean = likely_rate(len(steps) / span) if span > 0.0 else 100.0
         return InvalidArgument(
             f"{what} {int((steps == 0.0).sum())} samples have the time of the one before. Were digits of the times "
             f"cut off? "
-            "Export more of them, or specify the rate=... that the device had."
+            f"Export more of them, or specify the rate that the device had, by these times rate={mean:.4g}."
         )
     back = steps[steps < 0.0]
     few = len(back) <= max(1, _FEW_BACK * len(steps)) and (-back <= _SHORT_BACK * np.ptp(time[kept])).all()

@@ -172,7 +172,7 @@ def _chosen(poses: Array, index: int | None) -> Array:
         raise NotStated(
             "index",
             f"index: {index!r}, expected 0 to {len(poses) - 1}: the array {poses.shape} holds "
-            f"{len(poses)} demonstrations.",
+            f"{len(poses)} demonstrations. Specify one: index=0.",
         )
     raise InvalidArgument(
         f"index {index!r} into an array of shape {poses.shape}: expected (T, 4, 4), (T, 7) or (T, 8) "

@@ -63,10 +63,16 @@ def _row(line: int, text: str) -> _Row:
     try:
         content = json.loads(text)
         hands = {str(key): _numbers(hand["wrist_xform"]) for key, hand in content["hand_poses"].items()}
-        return int(content["timestamp_ns"]), hands
+        return _stamp(content["timestamp_ns"]), hands
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError, RecursionError) as error:
         what = "not JSON" if isinstance(error, json.JSONDecodeError) else f"no hand poses ({str(error)[:60]})"
         raise InvalidArgument(f"line {line}: {what}; expected timestamp_ns and hand_poses with wrist_xform.") from None
+
+
+def _stamp(value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or abs(value) >= 2**63:
+        raise ValueError("a stamp that is no whole number of ns")
+    return value
 
 
 def _numbers(transform: dict[str, list[float]]) -> list[float]:

@@ -158,8 +158,13 @@ def _rows(data: _Set, feature: str, episode: int) -> Array:
     parts = []
     for file in data.files():
         mine = _column(file, "episode_index") == episode
+        numbers = _column(file, feature)
+        if len(numbers) != len(mine):
+            raise InvalidArgument(
+                f"{file.name}: {len(numbers)} rows of {feature}, {len(mine)} of episode_index. It is damaged."
+            )
         if mine.any():
-            parts.append(_column(file, feature)[mine])
+            parts.append(numbers[mine])
     rows = np.concatenate(parts)
     return rows.reshape(len(rows), -1)
 

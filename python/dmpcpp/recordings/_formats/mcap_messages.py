@@ -112,22 +112,32 @@ def _stamp(message: Any) -> int:
         return -1
     whole = getattr(stamp, "sec", getattr(stamp, "seconds", None))
     part = getattr(stamp, "nsec", getattr(stamp, "nanos", 0))
-    return -1 if whole is None else int(whole) * 1_000_000_000 + int(part)
+    nanoseconds = -1 if whole is None else int(whole) * 1_000_000_000 + int(part)
+    if abs(nanoseconds) >= 2**63:
+        raise ValueError(f"a stamp of {nanoseconds} ns")
+    return nanoseconds
 
 
 def _pose_in_frame(topic: str, received: int, message: Any) -> Iterator[Found]:
     pose = message.pose
-    yield Found(topic, _stamp(message), received, str(message.frame_id), pose.position, pose.orientation)
+    yield _found(topic, _stamp(message), received, message.frame_id, pose.position, pose.orientation)
+
+
+def _found(body: str, stamp: int, received: int, frame: Any, position: Any, orientation: Any) -> Found:
+    """Return a pose whose numbers are numbers; what is none raises TypeError, ValueError or AttributeError."""
+    xyz = SimpleNamespace(**{name: float(getattr(position, name)) for name in "xyz"})
+    xyzw = SimpleNamespace(**{name: float(getattr(orientation, name)) for name in "xyzw"})
+    return Found(body, stamp, received, str(frame), xyz, xyzw)
 
 
 def _poses_in_frame(topic: str, received: int, message: Any) -> Iterator[Found]:
     for k, pose in enumerate(list(message.poses)[:_MOST_POSES]):
-        yield Found(f"{topic}[{k}]", _stamp(message), received, str(message.frame_id), pose.position, pose.orientation)
+        yield _found(f"{topic}[{k}]", _stamp(message), received, message.frame_id, pose.position, pose.orientation)
 
 
 def _transform(topic: str, received: int, message: Any) -> Iterator[Found]:
-    child, parent = str(message.child_frame_id), str(message.parent_frame_id)
-    yield Found(child, _stamp(message), received, parent, message.translation, message.rotation)
+    child, parent = str(message.child_frame_id), message.parent_frame_id
+    yield _found(child, _stamp(message), received, parent, message.translation, message.rotation)
 
 
 def _transforms(topic: str, received: int, message: Any) -> Iterator[Found]:

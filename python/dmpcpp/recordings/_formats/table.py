@@ -70,19 +70,23 @@ class _Table:
 
     def _times(self) -> Array:
         assert self.time is not None
-        read = clock_texts([cells[self.time].strip() if self.time < len(cells) else "" for _, cells in self.cells.rows])
+        read = None
+        if clock_texts(self._clock_cells(2)) is not None:
+            read = clock_texts(self._clock_cells(len(self.cells.rows)))
         if read is not None:
             return read[0]
         cells = replace(self.cells, advice=" Where times are no numbers, state the sampling rate in Hz: rate=100.")
         return cells.numbers([self.time], [self.called(self.time)])[:, 0]
 
+    def _clock_cells(self, count: int) -> list[str]:
+        place = self.time or 0
+        return [cells[place].strip() if place < len(cells) else "" for _, cells in self.cells.rows[:count]]
+
     def clock(self) -> str | float | None:
         """Return the unit of the times: by their look, or by the name of their column."""
         assert self.time is not None
         named = self.unit("time_unit", [self.time])
-        look = clock_texts(
-            [cells[self.time].strip() if self.time < len(cells) else "" for _, cells in self.cells.rows[:2]]
-        )
+        look = clock_texts(self._clock_cells(2))
         return look[1] if look is not None and (named is None or look[1] == "s") else named
 
     def unit(self, parameter: str, columns: list[int]) -> str | None:

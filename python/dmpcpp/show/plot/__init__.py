@@ -11,6 +11,7 @@ from dmpcpp.show.plot._learning import phase, spread
 from dmpcpp.show.plot._page import INK as INK
 from dmpcpp.show.plot._page import LEGEND as LEGEND
 from dmpcpp.show.plot._page import figure, png, save, svg
+from dmpcpp.show.plot._recorded import recorded
 from dmpcpp.show.plot._robot import joint_shares, shape
 from dmpcpp.show.plot._series import (
     activations,
@@ -35,6 +36,7 @@ __all__ = [
     "picture",
     "png",
     "position_error",
+    "recorded",
     "rotation_entries",
     "save",
     "series_errors",
