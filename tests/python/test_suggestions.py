@@ -16,7 +16,7 @@ TURN = Rotation.from_rotvec(np.column_stack([0.3 * np.sin(TIME), 0.4 * TIME, 0.2
 QUATERNION = TURN.as_quat()
 NAMES = "x,y,z,qx,qy,qz,qw"
 _FLAG = re.compile(r"--([a-z][a-z-]+)(?: ((?!--)[^\s;)]+))?")
-_SWITCHES = {"fixed-orientation", "mend-times"}
+_SWITCHES = {"fixed-orientation", "mend-times", "sort-times"}
 
 
 def text(path, header, columns, delimiter=","):
