@@ -18,6 +18,7 @@ from dmpcpp.recordings._recording import MIN_SAMPLES, Axis, Recording
 from dmpcpp.recordings._soundness import check_one_body, held_values, lost_zeros, zero_note
 from dmpcpp.recordings._stamps import without_bursts
 from dmpcpp.recordings._time_order import block, in_order
+from dmpcpp.recordings._upward import upward
 from dmpcpp.recordings._world import Frame, Handedness, World
 
 __all__ = ["Stated"]
@@ -229,13 +230,15 @@ class Stated:
         names, position, zero_notes = (
             _without_zeros(names, position) if self.missing != "nan" else (names, position, [])
         )
+        seen_up = upward(names, position) if frame.up_axis is None else None
+        told_up = [f"up axis {seen_up}: the head is above the feet along it"] if seen_up else []
         made = Markers(
             names=names,
             time=frame.times(time),
             position=position,
             source=source,
-            up_axis=frame.up_axis,
-            history=(*rate_notes, *notes, *sorted_notes, *zero_notes, *frame.notes(time)),
+            up_axis=frame.up_axis or seen_up,
+            history=(*rate_notes, *notes, *sorted_notes, *zero_notes, *told_up, *frame.notes(time)),
         )
         frame.check_step(made.time)
         return made

@@ -8,7 +8,7 @@ point; a confidence below 0 marks a hand that was not seen.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._markers import Markers
 from dmpcpp.recordings._orientation import HELD_FIXED, from_quaternions, held_fixed, no_turn
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
-from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import World
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ __all__ = ["READER"]
 
 _TIME = "tracking_timestamp_us"
 _WORLD = World(unit="m", time_unit="us")
+_UPRIGHT = 0.99  # share of gravity along one axis
 _POSE = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")
 _POINT = ("tx", "ty", "tz")
 _COLUMN = re.compile(r"(?P<what>t[xyz]|q[xyzw])_(?P<of>\w+)")
@@ -48,7 +49,17 @@ class _File:
     def holding(self, wanted: tuple[str, ...]) -> dict[str, dict[str, int]]:
         """Return the columns of what has all of some quantities, by the name that users see."""
         whole = {of: where for of, where in self.things.items() if all(what in where for what in wanted)}
+        whole.pop("ecef_device", None)  # the glasses on the globe, no motion in a room
         return {_NAMES.get(of, of.removesuffix("_device")): where for of, where in whole.items()}
+
+    def up_axis(self, body: str) -> Axis | None:
+        """Return the axis of the world against which gravity points, for the trajectory of the glasses."""
+        names = [f"gravity_{axis}_world" for axis in "xyz"]
+        if body != "device" or not all(name in self.header for name in names):
+            return None
+        gravity = self.cells.numbers([self.header.index(name) for name in names], names).mean(axis=0)
+        k = int(np.argmin(gravity))
+        return ("x", "y", "z")[k] if gravity[k] < -_UPRIGHT * np.linalg.norm(gravity) else None
 
     def times(self) -> Array:
         return self.cells.numbers([self.header.index(_TIME)], [_TIME])[:, 0]
@@ -104,7 +115,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         body=body,
         source=path.name,
         notes=notes,
-        world=_WORLD,
+        world=replace(_WORLD, up_axis=file.up_axis(body)),
     )
 
 

@@ -43,9 +43,13 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         rotation=rotation,
         body=hand,
         source=path.name,
-        notes=[f"hand {hand}: the {_HANDS.get(hand, 'other')} wrist, in the world", *notes],
+        notes=[*_told_up(stated), f"hand {hand}: the {_HANDS.get(hand, 'other')} wrist, in the world", *notes],
         world=World(unit="m", time_unit=None if stated.time_unit is not None else "ns"),
     )
+
+
+def _told_up(stated: Stated) -> list[str]:
+    return [] if stated.up_axis else ["taken: up_axis: z, which no file states; recordings of Quest 3 have y up"]
 
 
 def _hands(rows: list[_Row]) -> tuple[str, ...]:
