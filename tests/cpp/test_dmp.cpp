@@ -385,7 +385,7 @@ TEST_CASE("a run may begin anywhere, with any velocity") {
   CHECK(run.time() == 0.0);
 }
 
-TEST_CASE("what the loop can not use is refused and changes nothing") {
+TEST_CASE("what the loop cannot use is refused and changes nothing") {
   const Dmp dmp = Dmp::fit(reach(300, 2.0));
   Run run(dmp);
   run.step(.5);
@@ -486,7 +486,7 @@ TEST_CASE("runs are values: assigned and moved they go on as the original would"
                          [](const Run& run) { return run.position(); });
 }
 
-TEST_CASE("what ridge regression can not solve is refused with what to do") {
+TEST_CASE("what ridge regression cannot solve is refused with what to do") {
   DmpOptions options;
   options.regression = Regression::ridge;
   options.basis_count = 4001;

@@ -128,7 +128,7 @@ TEST_CASE("the Frechet distance is the shortest leash of all walks") {
   }
 }
 
-TEST_CASE("what can not be aligned is refused with the argument and the sample") {
+TEST_CASE("what cannot be aligned is refused with the argument and the sample") {
   const RowMatrix a = walk(10, 3, 15);
   RowMatrix broken = a;
   broken(4, 1) = std::nan("");

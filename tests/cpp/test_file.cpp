@@ -80,11 +80,11 @@ TEST_CASE("a file of one kind is not taken for another, nor a large one for a mo
                        InvalidArgument);
 }
 
-TEST_CASE("what can not be moved into place leaves nothing behind") {
+TEST_CASE("what cannot be moved into place leaves nothing behind") {
   const Folder folder;
   const std::filesystem::path occupied = folder.path / "occupied";
   std::filesystem::create_directory(occupied);
-  CHECK_THROWS_WITH_AS(save(Dmp::fit(reach(100, 1.0)), occupied), doctest::Contains("can not be written"),
+  CHECK_THROWS_WITH_AS(save(Dmp::fit(reach(100, 1.0)), occupied), doctest::Contains("cannot be written"),
                        FileError);
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) == 1);
 }

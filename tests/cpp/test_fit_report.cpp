@@ -243,7 +243,7 @@ TEST_CASE("each thing that spoils a model of orientations or poses is a warning 
   CHECK(warned(assess(Dmp::fit(noisy, many), {noisy}), "noise"));
 }
 
-TEST_CASE("a report of orientations or poses refuses what it can not hold a model against") {
+TEST_CASE("a report of orientations or poses refuses what it cannot hold a model against") {
   const PoseDemonstration demonstration = pose(100, 1.0);
   const OrientationDmp turn = OrientationDmp::fit(demonstration.orientation());
   const PoseDmp both = PoseDmp::fit(demonstration);

@@ -160,7 +160,7 @@ TEST_CASE("demonstrations of different scale are weighed by the square of their 
   CHECK((alone - both).cwiseAbs().maxCoeff() < 1e-10);
 }
 
-TEST_CASE("a scale of zero can not carry a forcing term") {
+TEST_CASE("a scale of zero cannot carry a forcing term") {
   const auto basis = GaussianBasis::equal_in_time(10, kAlphaX, 0.7);
   ForcingTarget target = target_of(100, [](double) { return 1.0; });
   target.scale[0] = 0.0;

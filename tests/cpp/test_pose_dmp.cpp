@@ -95,7 +95,7 @@ TEST_CASE("a run begins at any pose with any twist") {
   CHECK((run.pose() - dmp.goal()).norm() < 1e-4);
 }
 
-TEST_CASE("a pose that can not be given out whole is not given out in part") {
+TEST_CASE("a pose that cannot be given out whole is not given out in part") {
   PoseRun run(PoseDmp::fit(pose(200, 1.0)));
   run.step(0.1);
   const Eigen::Matrix4d before = run.pose();

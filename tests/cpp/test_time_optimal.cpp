@@ -50,7 +50,7 @@ JointTrajectory line(double way) {
 TEST_CASE("A straight way takes the time of the trapezoid: full acceleration, full speed, full braking") {
   const double bang = duration(dmp::time_optimal(line(1.0), {one(infinity), one(4.0), {}}));
   CHECK(bang >= 1.0 - 1e-9);  // 2 sqrt(way / acceleration)
-  CHECK(bang < 1.06);         // the spline can not switch at once
+  CHECK(bang < 1.06);         // the spline cannot switch at once
   const double cruise = duration(dmp::time_optimal(line(3.0), {one(1.0), one(2.0), {}}));
   CHECK(cruise >= 3.5 - 1e-9);  // way / speed + speed / acceleration
   CHECK(cruise < 3.6);

@@ -24,7 +24,7 @@ DMP_EXPORT Model from_json(const std::string& text);
 /// at all, with the permissions of the file that it replaces, or else of any new file. Throws FileError;
 /// InvalidArgument as to_json.
 DMP_EXPORT void save(const Model& model, const std::string& path);
-/// Throws FileError if the file can not be read, InvalidArgument if it is no model.
+/// Throws FileError if the file cannot be read, InvalidArgument if it is no model.
 DMP_EXPORT Model load(const std::string& path);
 /// The same for a caller who knows the kind. Throws InvalidArgument if the file holds another.
 DMP_EXPORT Dmp load_dmp(const std::string& path);

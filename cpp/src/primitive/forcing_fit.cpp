@@ -35,7 +35,7 @@ void require_scale(const std::vector<ForcingTarget>& targets, Index axis) {
   if (scale < 1e-9 && value > 1e-9)
     throw InvalidArgument(
         "scaling: axis " + std::to_string(axis) +
-        " of the demonstration ends where it starts, so (goal - start) can not scale its forcing "
+        " of the demonstration ends where it starts, so (goal - start) cannot scale its forcing "
         "term. Use Scaling::none or Scaling::per_axis_relative.");
 }
 

@@ -131,7 +131,7 @@ void require_displacement(const VectorXd& displacement, const VectorXd& amplitud
     if (amplitude[d] > 0.0 && std::abs(displacement[d]) < 1e-9 * amplitude[d])
       throw InvalidArgument("scaling: axis " + std::to_string(d) + " of the demonstration ends " +
                             number(displacement[d]) + " from its start and covers " + number(amplitude[d]) +
-                            ", so (goal - start) can not scale its forcing term. Use Scaling::none or "
+                            ", so (goal - start) cannot scale its forcing term. Use Scaling::none or "
                             "Scaling::per_axis_relative.");
 }
 
