@@ -71,7 +71,7 @@ def noise(kind: str, seeds: int) -> list[Figure]:
         if one.motion in ("reach", "rests"):
             kernels.append(Dmp.fit(demonstration).options.basis_count)
     figures = [
-        Figure(f"{kind}: noise learned", 100.0 * learned / seeds, _SHARES.get(kind, 1.0), "%"),
+        Figure(f"{kind}: noise learned", float(100.0 * learned / seeds), _SHARES.get(kind, 1.0), "%"),
         Figure(f"{kind}: error over the best smoothing's, median", float(np.median(ratios)), 1.05, "1"),
         Figure(f"{kind}: error over the best smoothing's, 95 %", float(np.percentile(ratios, 95)), 1.1, "1"),
     ]
@@ -111,10 +111,12 @@ def turns() -> list[Figure]:
     return [
         Figure("turns of 300 to 1080 deg, N = 100", float(max(errors)), 0.002, "deg"),
         *(
-            Figure(f"the same, goal {off:g} deg off: peak rate over the demonstrated", worst[off], limits[off], "1")
+            Figure(
+                f"the same, goal {off:g} deg off: peak rate over the demonstrated", float(worst[off]), limits[off], "1"
+            )
             for off in worst
         ),
-        Figure("the same: way added over the offset", travel, 1.05, "1"),
+        Figure("the same: way added over the offset", float(travel), 1.05, "1"),
     ]
 
 
@@ -128,7 +130,10 @@ def goals() -> list[Figure]:
     start = float(np.linalg.norm(moved.acceleration[0]) / peak)
     return [
         Figure(
-            "reach to half the way: back beyond the demonstration", 1e3 * max(0.0, -moved.position.min()), 0.1, "mm"
+            "reach to half the way: back beyond the demonstration",
+            float(1e3 * max(0.0, -moved.position.min())),
+            0.1,
+            "mm",
         ),
         Figure("the same: acceleration at the start over the peak", start, 0.15, "1"),
     ]

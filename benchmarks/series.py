@@ -44,8 +44,8 @@ def shown(kind: str, seed: int) -> Shown:
     at = time.copy()
     if "jitter" in kind:
         at[1:-1] += rng.uniform(-0.2, 0.2, count - 2) / rate
-    truth = motion(at)
-    value = truth + sigma * rng.normal(size=truth.shape)
+    truth = motion(time)
+    value = motion(at) + sigma * rng.normal(size=truth.shape)
     value, measured = _recorded(kind, rng, time, value)
     return Shown(time, value, truth, measured, sigma, name)
 

@@ -183,3 +183,20 @@ def test_a_recording_becomes_a_demonstration_to_learn_from():
     demonstration = motion.demonstration(recording)
     np.testing.assert_array_equal(demonstration.time, recording.time)
     np.testing.assert_allclose(demonstration.pose, motion.poses(recording), atol=1e-12)
+
+
+def test_an_end_that_repeats_its_neighbour_in_motion_is_left_out_and_a_rest_is_kept():
+    moving = screw()
+    assert motion.without_repeated_ends(moving) is moving
+    for end, name in ((0, "first"), (-1, "last")):
+        position, rotation = moving.position.copy(), moving.rotation.copy()
+        neighbour = 1 if end == 0 else -2
+        position[end], rotation[end] = position[neighbour], rotation[neighbour]
+        shown = moving.with_("shown twice", position=position, rotation=rotation)
+        left = motion.without_repeated_ends(shown)
+        assert len(left) == len(moving) - 1 and left.time[0] == 0.0
+        assert left.history[-1].startswith(f"{name} sample left out")
+    position, rotation = moving.position.copy(), moving.rotation.copy()
+    position[-20:], rotation[-20:] = position[-20], rotation[-20]
+    resting = moving.with_("rests", position=position, rotation=rotation)
+    assert motion.without_repeated_ends(resting) is resting

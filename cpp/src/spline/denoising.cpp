@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace dmp::detail {
@@ -30,8 +31,9 @@ constexpr double kSpeedCutoff = 2.0;    // Hz
 constexpr double kRestWindow = 0.4;     // s
 constexpr double kRestContrast = 12.0;  // busy over calm speed
 constexpr double kFirstCutoff = 12.0;   // Hz
-constexpr double kLowestCutoff = 0.5;   // Hz
+constexpr double kLowestCutoff = 1.5;   // Hz
 constexpr double kCutoffStep = 0.85;
+constexpr double kMostWander = 0.06;    // of the extent: a motion that vibrates all along is no noise
 constexpr double kRestUneven = 1.4;
 constexpr double kRestSharpness = 2.0;
 constexpr std::size_t kRestWindows = 6;
@@ -204,11 +206,28 @@ class Decision {
     }
     if (cutoff == 0.0) return {};
     look(fit_.lambda_of(cutoff));
-    if (sharpness() < kRestSharpness) return {};
+    const double extent = (values_.colwise().maxCoeff() - values_.colwise().minCoeff()).norm();
+    const double moved = std::sqrt(squares().dot(fit_.grid().weights()) / fit_.grid().measured());
+    if (sharpness() < kRestSharpness || moved > kMostWander * extent) return {};
     found.sharpness = sharpness();
     found.evenness = evenness_of(by_speed());
     describe(NoiseKind::coloured, found);
     return lambda_;
+  }
+
+  /// After white noise was found: whether a rest shows that more of it wanders. True in any case.
+  bool settle_with_rests(NoiseEstimate& found) {
+    const double before = std::exchange(peak_, inner_peak(looked_.acceleration));
+    const double stiffness = lambda_;
+    NoiseEstimate more = found;
+    if (coloured(more)) {
+      more.sharpness *= before / peak_;
+      found = more;
+    } else {
+      found.resting = more.resting;
+      look(stiffness);
+    }
+    return true;
   }
 
   SmoothingFit::Curve curve() { return fit_.curve(lambda_); }
@@ -294,7 +313,8 @@ Denoised denoise(LazyGrid& grid, const RowMatrix& values, int axes, const Spline
   found.unpredicted = noise.middle;
   if (plainly_clean(noise, grid.weights(), values)) return result;
   Decision decision(grid.get(), values, axes, through);
-  if (decision.white(found) || decision.coloured(found)) result.curve = decision.curve();
+  if (decision.white(found) ? decision.settle_with_rests(found) : decision.coloured(found).has_value())
+    result.curve = decision.curve();
   return result;
 }
 

@@ -12,6 +12,7 @@ out. Every other step asks for whole recordings.
 
 from dmpcpp.motion._alignment import Spread, aligned, mean, medoid, spread
 from dmpcpp.motion._cleaning import LONGEST_GAP, Gap, fill, gaps, gaps_in, outliers, skipped, split
+from dmpcpp.motion._ends import without_repeated_ends
 from dmpcpp.motion._long import one_motion, thinned
 from dmpcpp.motion._plausibility import implausible, plausible
 from dmpcpp.motion._poses import (
@@ -71,4 +72,5 @@ __all__ = [
     "thinned",
     "turn_angles",
     "white_noise",
+    "without_repeated_ends",
 ]

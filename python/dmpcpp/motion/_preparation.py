@@ -7,6 +7,7 @@ from typing import Literal
 
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._cleaning import LONGEST_GAP, fill, outliers
+from dmpcpp.motion._ends import without_repeated_ends
 from dmpcpp.motion._long import one_motion
 from dmpcpp.motion._segmentation import cycles, segments
 from dmpcpp.motion._smoothing import evenly_sampled, low_pass, smooth
@@ -98,7 +99,7 @@ def _whole(recording: Recording, how: Preparation) -> Recording:
         recording = crop(recording, how.start, how.end)
     if how.segment is None and how.repetition is None:
         recording = one_motion(recording)
-    return _repaired(recording, how)
+    return without_repeated_ends(_repaired(recording, how))
 
 
 def _finished(recording: Recording, how: Preparation) -> Recording:
