@@ -70,11 +70,11 @@ def noise(kind: str, seeds: int) -> list[Figure]:
             ratios.append(_rms(smooth.position - one.truth) / _best(one))
         if one.motion in ("reach", "rests"):
             kernels.append(Dmp.fit(demonstration).options.basis_count)
-    figures = [
-        Figure(f"{kind}: noise learned", float(100.0 * learned / seeds), _SHARES.get(kind, 1.0), "%"),
-        Figure(f"{kind}: error over the best smoothing's, median", float(np.median(ratios)), 1.05, "1"),
-        Figure(f"{kind}: error over the best smoothing's, 95 %", float(np.percentile(ratios, 95)), 1.1, "1"),
-    ]
+    figures = [Figure(f"{kind}: noise learned", float(100.0 * learned / seeds), _SHARES.get(kind, 1.0), "%")]
+    if ratios:
+        name = f"{kind}: error over the best smoothing's"
+        figures.append(Figure(f"{name}, median", float(np.median(ratios)), 1.05, "1"))
+        figures.append(Figure(f"{name}, 95 %", float(np.percentile(ratios, 95)), 1.1, "1"))
     if kernels:
         figures.append(Figure(f"{kind}: kernels of reaches, 90 %", float(np.percentile(kernels, 90)), 50.0, "1"))
     return figures

@@ -13,7 +13,7 @@ from dmpcpp.checks import Check
 from dmpcpp.metrics import StageErrors
 
 _FEWEST = 3  # of two takes that differ nobody knows which is the other one
-_TIMES_MEDIAN = 5.0  # takes of one letter by one hand come to 4.3
+_TIMES_MEDIAN = (3.0, 5.0)  # of few takes, of many: takes of one letter by one hand come to 4.3
 _SHARE_OF_EXTENT = 0.05
 _ANGLE = math.radians(10.0)
 
@@ -21,7 +21,7 @@ _ANGLE = math.radians(10.0)
 def takes_apart(
     demonstrations: Sequence[PoseDemonstration], names: Sequence[str], options: DmpOptions
 ) -> tuple[Check, ...]:
-    """Return a failed check for each take that the model of the others misses by more than five times the median of
+    """Return a failed check for each take that the model of the others misses by more than three to five times the median of
     such misses (RMS), and by more than 5 % of its extent or 10 deg.
 
     Each model runs from the take's own start to its goal within its duration.
@@ -34,10 +34,12 @@ def takes_apart(
     ]
     usual_position = float(np.median([miss.position_rmse for miss in misses]))
     usual_angle = float(np.median([miss.angle_rmse for miss in misses]))
+    # One take that is different moves the models of the others by its share of them.
+    times = float(np.clip(0.75 * (len(demonstrations) - 1), *_TIMES_MEDIAN))
     checks = []
     for k, (miss, one) in enumerate(zip(misses, demonstrations, strict=True)):
-        position = max(_TIMES_MEDIAN * usual_position, _SHARE_OF_EXTENT * _extent(one))
-        angle = max(_TIMES_MEDIAN * usual_angle, _ANGLE)
+        position = max(times * usual_position, _SHARE_OF_EXTENT * _extent(one))
+        angle = max(times * usual_angle, _ANGLE)
         detail = f"take {k + 1} ({names[k]}) against the model of the others; --leave-out {k + 1} learns without it"
         for what, found, limit, unit in (
             ("position", miss.position_rmse, position, "m"),
