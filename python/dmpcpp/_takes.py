@@ -21,7 +21,7 @@ _ANGLE = math.radians(10.0)
 def takes_apart(
     demonstrations: Sequence[PoseDemonstration], names: Sequence[str], options: DmpOptions
 ) -> tuple[Check, ...]:
-    """Return a failed check for each take that the model of the others misses by more than three to five times the median of
+    """Return a failed check for each take that the model of the others misses by more than 3 to 5 times the median of
     such misses (RMS), and by more than 5 % of its extent or 10 deg.
 
     Each model runs from the take's own start to its goal within its duration.
