@@ -150,7 +150,8 @@ void bind_orientation_demonstration(py::module_& m) {
             const py::gil_scoped_release release;
             return d.denoised();
           },
-          "The same motion without its noise, where the samples show that they carry any, otherwise as it is; see "
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
+          "is; see "
           "noise_estimate() and NoiseEstimate.")
       .def(
           "noise_estimate",
@@ -163,9 +164,12 @@ void bind_orientation_demonstration(py::module_& m) {
           "Whether the samples carry noise that can be taken out, with the evidence.")
       .def(
           "with_measured",
-          [](const OrientationDemonstration& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          [](const OrientationDemonstration& d, const Array& measured) {
+            return d.with_measured(to_vector(measured, "measured"));
+          },
           py::arg("measured"),
-          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the "
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
+          "show the "
           "way, but no noise.")
       .def("__repr__", [](const O& d) { return shown_samples("OrientationDemonstration", d.time()); })
       .def("__len__", &O::size);
@@ -179,17 +183,19 @@ void bind_noise(py::module_& m) {
       .value("white", NoiseKind::white)
       .value("coloured", NoiseKind::coloured)
       .finalize();
-  py::class_<NoiseEstimate>(
-      m, "NoiseEstimate",
-      "Whether samples carry noise that can be taken out without taking part of the motion, and the evidence. "
-      "White noise is taken out if freedom <= 0.5, flatness <= 1.55, evenness >= 0.5 or correlation <= 0.1, and "
-      "sharpness >= 1.25.")
+  py::class_<NoiseEstimate>(m, "NoiseEstimate",
+                            "Whether samples carry noise that can be taken out without taking part of the "
+                            "motion, and the evidence. "
+                            "White noise is taken out if freedom <= 0.5, flatness <= 1.55, evenness >= 0.5 "
+                            "or correlation <= 0.1, and "
+                            "sharpness >= 1.25.")
       .def_readonly("kind", &NoiseEstimate::kind)
       .def_readonly("sigma", &NoiseEstimate::sigma,
                     "standard deviation along one axis, unit of the samples or rad; 0 if there is none")
       .def_readonly("removed", &NoiseEstimate::removed,
                     "root of the mean square that smoothing takes out, all axes together")
-      .def_readonly("cutoff", &NoiseEstimate::cutoff, "Hz, where the smoothing leaves half the power; 0 if none")
+      .def_readonly("cutoff", &NoiseEstimate::cutoff,
+                    "Hz, where the smoothing leaves half the power; 0 if none")
       .def_readonly("unpredicted", &NoiseEstimate::unpredicted,
                     "RMS by which a sample differs from what its six neighbours predict, all axes together")
       .def_readonly("freedom", &NoiseEstimate::freedom,
@@ -202,7 +208,8 @@ void bind_noise(py::module_& m) {
                     "of neighbouring residuals where the motion is busy; below 0 for noise")
       .def_readonly("sharpness", &NoiseEstimate::sharpness,
                     "largest acceleration of the samples as they are over that of the smoothed motion")
-      .def_readonly("resting", &NoiseEstimate::resting, "speed where the motion is busy over that where it is calm")
+      .def_readonly("resting", &NoiseEstimate::resting,
+                    "speed where the motion is busy over that where it is calm")
       .def_readonly("measured", &NoiseEstimate::measured, "samples that were measured, not filled in or held")
       .def_property_readonly("found", &NoiseEstimate::found, "whether the kind is not none");
 }
@@ -241,7 +248,8 @@ void bind_demonstration(py::module_& m) {
             const py::gil_scoped_release release;
             return d.denoised();
           },
-          "The same motion without its noise, where the samples show that they carry any, otherwise as it is; see "
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
+          "is; see "
           "noise_estimate() and NoiseEstimate.")
       .def(
           "noise_estimate",
@@ -254,9 +262,12 @@ void bind_demonstration(py::module_& m) {
           "Whether the samples carry noise that can be taken out, with the evidence.")
       .def(
           "with_measured",
-          [](const Demonstration& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          [](const Demonstration& d, const Array& measured) {
+            return d.with_measured(to_vector(measured, "measured"));
+          },
           py::arg("measured"),
-          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the "
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
+          "show the "
           "way, but no noise.")
       .def("__repr__", [](const Demonstration& d) { return shown_samples("Demonstration", d.time()); })
       .def("__len__", &Demonstration::size);
@@ -312,7 +323,8 @@ void bind_demonstration(py::module_& m) {
             const py::gil_scoped_release release;
             return d.denoised();
           },
-          "The same motion without its noise, where the samples show that they carry any, otherwise as it is; see "
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
+          "is; see "
           "noise_estimate() and NoiseEstimate.")
       .def(
           "noise_estimates",
@@ -322,12 +334,16 @@ void bind_demonstration(py::module_& m) {
             d.denoised(&found.first, &found.second);
             return found;
           },
-          "Whether positions [m] and orientations [rad] carry noise that can be taken out, with the evidence.")
+          "Whether positions [m] and orientations [rad] carry noise that can be taken out, with the "
+          "evidence.")
       .def(
           "with_measured",
-          [](const PoseDemonstration& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          [](const PoseDemonstration& d, const Array& measured) {
+            return d.with_measured(to_vector(measured, "measured"));
+          },
           py::arg("measured"),
-          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They show the "
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
+          "show the "
           "way, but no noise.")
       .def("__repr__",
            [](const PoseDemonstration& d) { return shown_samples("PoseDemonstration", d.time()); })

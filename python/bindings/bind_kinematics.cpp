@@ -36,11 +36,12 @@ auto text_of(const Text& (Arm::*get)() const) {
   return [get](const Arm& arm) { return readable((arm.*get)()); };
 }
 
-constexpr std::array<std::pair<const char*, LimitKind>, 5> limit_kinds = {{{"position", LimitKind::position},
-                                                                          {"velocity", LimitKind::velocity},
-                                                                          {"acceleration", LimitKind::acceleration},
-                                                                          {"jerk", LimitKind::jerk},
-                                                                          {"effort", LimitKind::effort}}};
+constexpr std::array<std::pair<const char*, LimitKind>, 5> limit_kinds = {
+    {{"position", LimitKind::position},
+     {"velocity", LimitKind::velocity},
+     {"acceleration", LimitKind::acceleration},
+     {"jerk", LimitKind::jerk},
+     {"effort", LimitKind::effort}}};
 
 py::dict sources_of(const Arm& arm) {
   py::dict sources;
@@ -81,9 +82,12 @@ LimitOverrides overrides_of(const std::optional<Array>& lower, const std::option
                             const std::optional<Array>& velocity, const std::optional<Array>& effort,
                             const std::optional<Array>& acceleration, const std::optional<Array>& jerk,
                             const std::variant<LimitSource, py::dict>& source) {
-  LimitOverrides limits{optional_vector(lower, "lower"),       optional_vector(upper, "upper"),
-                        optional_vector(velocity, "velocity"), optional_vector(effort, "effort"),
-                        optional_vector(acceleration, "acceleration"), optional_vector(jerk, "jerk")};
+  LimitOverrides limits{optional_vector(lower, "lower"),
+                        optional_vector(upper, "upper"),
+                        optional_vector(velocity, "velocity"),
+                        optional_vector(effort, "effort"),
+                        optional_vector(acceleration, "acceleration"),
+                        optional_vector(jerk, "jerk")};
   if (const auto* one = std::get_if<LimitSource>(&source)) limits.source = *one;
   if (const auto* each = std::get_if<py::dict>(&source)) limits.sources = sources_from(*each);
   return limits;
@@ -127,8 +131,7 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
              const std::optional<Array>& velocity, const std::optional<Array>& effort,
              const std::optional<Array>& acceleration, const std::optional<Array>& jerk,
              const std::variant<LimitSource, py::dict>& source) {
-            return arm.with_limits(
-                overrides_of(lower, upper, velocity, effort, acceleration, jerk, source));
+            return arm.with_limits(overrides_of(lower, upper, velocity, effort, acceleration, jerk, source));
           },
           py::kw_only(), py::arg("lower") = py::none(), py::arg("upper") = py::none(),
           py::arg("velocity") = py::none(), py::arg("effort") = py::none(),
@@ -155,10 +158,10 @@ Infinity means that there is none. `source` says where they come from: one Limit
                              "(n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF cannot.")
       .def_property_readonly("jerk_limit", vector_of(&Arm::jerk_limit),
                              "(n,) rad/s^3 or m/s^3; inf where nobody states one.")
-      .def_property_readonly(
-          "limit_sources", &sources_of,
-          "Where the limits come from: a tuple of n LimitSource for each of position, velocity, acceleration, "
-          "jerk and effort.")
+      .def_property_readonly("limit_sources", &sources_of,
+                             "Where the limits come from: a tuple of n LimitSource for each of position, "
+                             "velocity, acceleration, "
+                             "jerk and effort.")
       .def_property_readonly("warnings", text_of(&Arm::warnings),
                              "Non-fatal problems of the URDF, one sentence each.")
       .def_property_readonly("urdf", text_of(&Arm::urdf), "The text that was read.")

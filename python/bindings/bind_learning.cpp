@@ -86,9 +86,10 @@ void bind_learning(py::module_& m) {
       .def_property_readonly(
           "removed", [](const FitReport& r) { return from_vector(r.removed); },
           "(d,) root of the mean square that smoothing took out; 0 unless it was asked for")
-      .def_readonly("evidence", &FitReport::evidence,
-                    "what each demonstration shows of noise: a list of NoiseEstimate, of its positions, of its "
-                    "orientations, or of both")
+      .def_readonly(
+          "evidence", &FitReport::evidence,
+          "what each demonstration shows of noise: a list of NoiseEstimate, of its positions, of its "
+          "orientations, or of both")
       .def_readonly("largest_log", &FitReport::largest_log, "rad, the largest |Log(Rg R^T)| on the way")
       .def_readonly("condition", &FitReport::condition, "of the regression's matrix")
       .def_readonly("suggested_basis_count", &FitReport::suggested_basis_count,

@@ -118,7 +118,8 @@ void bind_options(py::module_& m) {
       .def_static("source", &DmpOptions::source,
                   "The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and "
                   "E7 mended.")
-      .def_readwrite("basis_count", &DmpOptions::basis_count, "N, kernels; 0: as many as the demonstrations need")
+      .def_readwrite("basis_count", &DmpOptions::basis_count,
+                     "N, kernels; 0: as many as the demonstrations need")
       .def_readwrite("alpha", &DmpOptions::alpha, "spring and damper: tau zd = alpha (beta (g - y) - z) + f")
       .def_readwrite("beta", &DmpOptions::beta, "alpha / 4 unless given: critically damped")
       .def_readwrite("orientation_alpha", &DmpOptions::orientation_alpha, "alpha unless given")

@@ -39,7 +39,8 @@ void add_argument(const pybind11::object& type) {
   });
   const py::object property = py::module_::import("builtins").attr("property");
   py::setattr(type, "argument",
-              property(get, set, py::none(), "Name of the argument that cannot be used; empty where it is no one of them."));
+              property(get, set, py::none(),
+                       "Name of the argument that cannot be used; empty where it is no one of them."));
 }
 
 }  // namespace

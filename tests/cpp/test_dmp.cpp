@@ -81,7 +81,8 @@ TEST_CASE("100 kernels reproduce the helix and the reach; ridge regression a hun
   CHECK(error(reaching, ridge) < 1e-8);
 }
 
-TEST_CASE("the default is nowhere less exact than 100 kernels of locally weighted regression, and takes few") {
+TEST_CASE(
+    "the default is nowhere less exact than 100 kernels of locally weighted regression, and takes few") {
   const Demonstration turning = helix(1000, 4.995, .1, .2, 999 * .05 / (2 * M_PI));
   const Demonstration reaching = reach(1000, 4.995);
   for (const Demonstration& demonstration : {turning, reaching}) {
@@ -98,7 +99,8 @@ TEST_CASE("the default is nowhere less exact than 100 kernels of locally weighte
   CHECK_FALSE(used.automatic());
 }
 
-TEST_CASE("a stated number of passes is locally weighted regression; a model of weights leaves nothing open") {
+TEST_CASE(
+    "a stated number of passes is locally weighted regression; a model of weights leaves nothing open") {
   DmpOptions textbook;
   textbook.passes = 1;
   CHECK(Dmp::fit(reach(100, 1.0), textbook).options().regression == Regression::lwr);

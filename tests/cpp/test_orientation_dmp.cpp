@@ -286,7 +286,8 @@ TEST_CASE("turns of one to three times around are reproduced, and no start or go
     CHECK(reproduction(shown, stated()).rmse < .002 * kDegree);
     const Effort shown_effort = effort_of(dmp.rollout({}, {}, .004));
     for (const double off : {5.0, 20.0, 60.0, 150.0})
-      for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, -1, 1), Vector3d(1, 2, 3), Vector3d(-1, 1, -1)}) {
+      for (const Vector3d& axis :
+           {Vector3d(1, 0, 0), Vector3d(0, -1, 1), Vector3d(1, 2, 3), Vector3d(-1, 1, -1)}) {
         const Eigen::Matrix3d goal = so3::exp(off * kDegree * axis.normalized()) * dmp.goal();
         const OrientationTrajectory motion = dmp.rollout(goal, {}, .004);
         const Effort effort = effort_of(motion);
@@ -347,5 +348,7 @@ TEST_CASE("several takes turn along with one rotation") {
   const OrientationDmp dmp = OrientationDmp::fit({turn(350), turn(370), turn(390)}, stated());
   CHECK(dmp.options().orientation_form == OrientationForm::turning);
   const Effort effort = effort_of(dmp.rollout({}, {}, .004));
-  CHECK(effort.travel == doctest::Approx(effort_of(OrientationDmp::fit(turn(370), stated()).rollout({}, {}, .004)).travel).epsilon(.02));
+  CHECK(effort.travel ==
+        doctest::Approx(effort_of(OrientationDmp::fit(turn(370), stated()).rollout({}, {}, .004)).travel)
+            .epsilon(.02));
 }

@@ -36,10 +36,10 @@ using LimitSources = std::array<std::vector<LimitSource>, 5>;
 
 /// Replacements for the joint limits of an arm, each of n values or absent (then what the arm has stays).
 struct LimitOverrides {
-  std::optional<Eigen::VectorXd> lower;     ///< rad or m
-  std::optional<Eigen::VectorXd> upper;     ///< rad or m
-  std::optional<Eigen::VectorXd> velocity;  ///< rad/s or m/s, > 0
-  std::optional<Eigen::VectorXd> effort;    ///< N m or N, > 0
+  std::optional<Eigen::VectorXd> lower;                        ///< rad or m
+  std::optional<Eigen::VectorXd> upper;                        ///< rad or m
+  std::optional<Eigen::VectorXd> velocity;                     ///< rad/s or m/s, > 0
+  std::optional<Eigen::VectorXd> effort;                       ///< N m or N, > 0
   std::optional<Eigen::VectorXd> acceleration = std::nullopt;  ///< rad/s^2 or m/s^2, > 0
   std::optional<Eigen::VectorXd> jerk = std::nullopt;          ///< rad/s^3 or m/s^3, > 0
   LimitSource source = LimitSource::user;  ///< of the values given here; infinite ones are unstated
@@ -78,13 +78,14 @@ class DMP_EXPORT Arm {
   const Eigen::VectorXd& lower() const;                 ///< (n); -infinity for a continuous joint
   const Eigen::VectorXd& upper() const;                 ///< (n); +infinity for a continuous joint
   const Eigen::VectorXd& velocity_limit() const;        ///< (n) rad/s or m/s; +infinity where none is stated
-  const Eigen::VectorXd& acceleration_limit() const;    ///< (n) rad/s^2 or m/s^2; assumed_acceleration if unstated
-  const Eigen::VectorXd& jerk_limit() const;            ///< (n) rad/s^3 or m/s^3; +infinity where none is stated
-  const Eigen::VectorXd& effort_limit() const;          ///< (n) N m or N; +infinity where none is stated
+  const Eigen::VectorXd& acceleration_limit()
+      const;                                    ///< (n) rad/s^2 or m/s^2; assumed_acceleration if unstated
+  const Eigen::VectorXd& jerk_limit() const;    ///< (n) rad/s^3 or m/s^3; +infinity where none is stated
+  const Eigen::VectorXd& effort_limit() const;  ///< (n) N m or N; +infinity where none is stated
   const std::vector<LimitSource>& limit_sources(LimitKind kind) const;  ///< n, from base to tip
-  const std::vector<std::string>& warnings() const;     ///< non-fatal problems of the URDF, one sentence each
-  const std::string& urdf() const;                      ///< the text that was read
-  const std::string& folder() const;                    ///< to which mesh paths are relative; "" if unknown
+  const std::vector<std::string>& warnings() const;  ///< non-fatal problems of the URDF, one sentence each
+  const std::string& urdf() const;                   ///< the text that was read
+  const std::string& folder() const;                 ///< to which mesh paths are relative; "" if unknown
 
   /// The pose of the tip in the base frame at the joints q (n), by KDL. Limits are not checked.
   /// Throws InvalidArgument if q has another size or is not finite.

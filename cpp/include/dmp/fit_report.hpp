@@ -24,7 +24,8 @@ struct FitReport {
   Eigen::VectorXd rmse;  ///< (d) rollout at each demonstration's own start, goal and duration, at its samples
   Eigen::VectorXd largest;  ///< (d)
   Eigen::VectorXd noise;    ///< (d) standard deviation found in the data (NoiseEstimate); 0 if there is none
-  Eigen::VectorXd removed;  ///< (d) root of the mean square that smoothing took out; 0 unless it was asked for
+  Eigen::VectorXd
+      removed;  ///< (d) root of the mean square that smoothing took out; 0 unless it was asked for
   /// What each demonstration shows of noise: of its positions, of its orientations, or of both.
   std::vector<std::vector<NoiseEstimate>> evidence;
   double largest_log = 0.0;  ///< rad, the largest |Log(Rg R^T)| on the way; 0 for positions

@@ -24,13 +24,15 @@ struct DMP_EXPORT NoiseEstimate {
   /// RMS by which a sample differs from what its six neighbours predict, all axes together: what even the
   /// best model cannot know between the samples.
   double unpredicted = 0.0;
-  double freedom = 1.0;    ///< degrees of freedom of the smoothed motion over the samples that were measured
-  double flatness = 0.0;   ///< sqrt(V(.6) / V(.8)), V(e) the variance left by a fit of freedom e; 1.2 for noise
-  double evenness = 0.0;   ///< residual where the motion is calm over that where it is busy; 1 for noise
+  double freedom = 1.0;  ///< degrees of freedom of the smoothed motion over the samples that were measured
+  double flatness =
+      0.0;  ///< sqrt(V(.6) / V(.8)), V(e) the variance left by a fit of freedom e; 1.2 for noise
+  double evenness = 0.0;     ///< residual where the motion is calm over that where it is busy; 1 for noise
   double correlation = 0.0;  ///< of neighbouring residuals where it is busy; below 0 for noise
-  double sharpness = 1.0;  ///< largest acceleration of the samples as they are over that of the smoothed motion
-  double resting = 0.0;    ///< speed where the motion is busy over that where it is calm; a rest makes it large
-  int measured = 0;        ///< samples that were measured: neither filled in nor held by the recording system
+  double sharpness =
+      1.0;               ///< largest acceleration of the samples as they are over that of the smoothed motion
+  double resting = 0.0;  ///< speed where the motion is busy over that where it is calm; a rest makes it large
+  int measured = 0;      ///< samples that were measured: neither filled in nor held by the recording system
 
   bool found() const noexcept { return kind != NoiseKind::none; }
 };

@@ -33,8 +33,8 @@ struct OrientationDmpParameters {
       Eigen::Vector3d::Zero();  ///< Log(Rg R0^T) on its branch, rad; beyond pi where the way is longer
   Eigen::Vector3d amplitude = Eigen::Vector3d::Zero();  ///< range of Log(Rg R^T), axis by axis, rad
   RowMatrix weights;                                    ///< (N x 3) of the forcing term
-  /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans of
-  /// the phase that turns along, the first and the last three times. Empty in the other forms.
+  /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans
+  /// of the phase that turns along, the first and the last three times. Empty in the other forms.
   RowMatrix reference;
 };
 

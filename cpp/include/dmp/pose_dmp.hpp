@@ -24,8 +24,8 @@ struct PoseDmpParameters {
   Eigen::Matrix<double, 6, 1> amplitude =
       Eigen::Matrix<double, 6, 1>::Zero();  ///< ranges of p [m] and Log(Rg R^T) [rad]
   RowMatrix weights;                        ///< (N x 6): three of the position, three of the orientation
-  /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans of
-  /// the phase that turns along, the first and the last three times. Empty in the other forms.
+  /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans
+  /// of the phase that turns along, the first and the last three times. Empty in the other forms.
   RowMatrix reference;
 };
 

@@ -54,7 +54,8 @@ class DMP_EXPORT Spline {
   static Spline smoothing(const Eigen::VectorXd& times, const RowMatrix& values, Smoothing* report = nullptr);
 
   /// The spline through other values (T x d) at the same times: what depends on the times alone is shared
-  /// where the ends have the same conditions. Throws InvalidArgument for another number of rows, or if this is a smoothing spline.
+  /// where the ends have the same conditions. Throws InvalidArgument for another number of rows, or if this
+  /// is a smoothing spline.
   Spline through(const RowMatrix& values) const;
 
   Eigen::Index dimension() const noexcept { return coefficients_[0].cols(); }

@@ -4,9 +4,9 @@
 
 namespace dmp::detail {
 
-/// Which directions of a pose are constrained: a weight for each direction of the target's own frame, moving along x, y, z and
-/// turning about x, y, z. A direction of weight 0 is free. Of the turns, all count, or all but one (the axis
-/// of a tool that may spin), or none.
+/// Which directions of a pose are constrained: a weight for each direction of the target's own frame, moving
+/// along x, y, z and turning about x, y, z. A direction of weight 0 is free. Of the turns, all count, or all
+/// but one (the axis of a tool that may spin), or none.
 class PoseGoal {
  public:
   /// `angle_weight` [m/rad] multiplies the weights of the turns.

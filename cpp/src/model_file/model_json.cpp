@@ -17,9 +17,8 @@ constexpr std::size_t kMostObjects = 100;  // after each the parser looks throug
 constexpr int kDeepest = 8;
 
 const Names<Kernels> kKernels{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
-const Names<Regression> kRegression{{Regression::lwr, "lwr"},
-                                    {Regression::ridge, "ridge"},
-                                    {Regression::automatic, "automatic"}};
+const Names<Regression> kRegression{
+    {Regression::lwr, "lwr"}, {Regression::ridge, "ridge"}, {Regression::automatic, "automatic"}};
 const Names<Scaling> kScaling{{Scaling::none, "none"},
                               {Scaling::per_axis, "per_axis"},
                               {Scaling::per_axis_relative, "per_axis_relative"},
@@ -185,7 +184,8 @@ Model model_from_json(const Json& json) {
     throw InvalidArgument("format: expected \"dmpcpp\".");
   const int version = integer_at(member(json, "version", "model"), "version");
   if (version < 1 || version > kVersion)
-    throw InvalidArgument("version: " + std::to_string(version) + ", expected 1 to " + std::to_string(kVersion) +
+    throw InvalidArgument("version: " + std::to_string(version) + ", expected 1 to " +
+                          std::to_string(kVersion) +
                           (version > kVersion ? ". The file was written by a newer dmpcpp: update." : "."));
   const std::string kind = text_at(member(json, "kind", "model"), "kind");
   if (kind == "dmp") return Dmp(read<DmpParameters>(json));

@@ -341,9 +341,8 @@ PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* or
 PoseDemonstration PoseDemonstration::denoised(NoiseEstimate* position, NoiseEstimate* orientation) const {
   const auto moved = repeats_in(position_.position_);
   const auto turned = repeats_in(orientation_.rotation_);
-  detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, size(), [&](Index k) {
-                          return moved(k) && turned(k);
-                        }));
+  detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, size(),
+                                                         [&](Index k) { return moved(k) && turned(k); }));
   return {position_.denoised(grid, position), orientation_.denoised(grid, orientation)};
 }
 

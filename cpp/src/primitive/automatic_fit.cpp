@@ -10,13 +10,13 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kShareOfNoise = 0.25;   // of the error that smoothing leaves: 3 % more in all
-constexpr double kShareOfDetail = 0.4;   // of what neighbours leave open of a sample
-constexpr double kFinest = 3e-6;         // of the extent
-constexpr double kCoarsest = 3e-4;       // likewise
-constexpr double kLeastExtent = 0.3;     // rad; what turns less is no motion of the orientation
-constexpr double kRounding = 1e-9;       // of the largest value
-constexpr Index kMostTimes = 400;        // at which a model is compared
+constexpr double kShareOfNoise = 0.25;  // of the error that smoothing leaves: 3 % more in all
+constexpr double kShareOfDetail = 0.4;  // of what neighbours leave open of a sample
+constexpr double kFinest = 3e-6;        // of the extent
+constexpr double kCoarsest = 3e-4;      // likewise
+constexpr double kLeastExtent = 0.3;    // rad; what turns less is no motion of the orientation
+constexpr double kRounding = 1e-9;      // of the largest value
+constexpr Index kMostTimes = 400;       // at which a model is compared
 
 /// How close is close enough. The error that smoothing leaves is sigma sqrt(axes freedom).
 Closeness closeness(const NoiseEstimate& noise, int axes, double extent, double least) {
@@ -58,7 +58,9 @@ VectorXd times_at(const VectorXd& time, const std::vector<Index>& chosen) {
   return times;
 }
 
-double root_of_mean(double squares, std::size_t count) { return std::sqrt(squares / static_cast<double>(count)); }
+double root_of_mean(double squares, std::size_t count) {
+  return std::sqrt(squares / static_cast<double>(count));
+}
 
 double distance_of(const Demonstration& motion, const std::vector<Index>& chosen, const RowMatrix& position) {
   double squares = 0.0;
@@ -68,7 +70,8 @@ double distance_of(const Demonstration& motion, const std::vector<Index>& chosen
 }
 
 template <class RotationAt>
-double angle_of(const OrientationDemonstration& motion, const std::vector<Index>& chosen, RotationAt rotation) {
+double angle_of(const OrientationDemonstration& motion, const std::vector<Index>& chosen,
+                RotationAt rotation) {
   double squares = 0.0;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const double angle = so3::distance(rotation(k), motion.rotation()[static_cast<std::size_t>(chosen[k])]);
@@ -114,7 +117,8 @@ double miss(const Dmp& model, const Prepared<Demonstration>& aim) {
 double miss(const OrientationDmp& model, const Prepared<OrientationDemonstration>& aim) {
   const std::vector<Index> chosen = some(aim.motion.size());
   const OrientationTrajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
-  return angle_of(aim.motion, chosen, [&](std::size_t k) { return again.rotation[k]; }) / aim.parts[0].tolerance;
+  return angle_of(aim.motion, chosen, [&](std::size_t k) { return again.rotation[k]; }) /
+         aim.parts[0].tolerance;
 }
 
 double miss(const PoseDmp& model, const Prepared<PoseDemonstration>& aim) {

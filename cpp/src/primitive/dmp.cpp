@@ -76,11 +76,12 @@ Dmp Dmp::fit_together(const Demonstration* demonstrations, std::size_t count, co
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
   if (options.automatic()) {
     options.validate();
-    return detail::fit_automatically<Dmp>(demonstrations, count, options,
-                                         [](const Demonstration* one, std::size_t number, const DmpOptions& stated) {
-                                           std::unique_ptr<detail::ForcingFit> none;
-                                           return fit_together(one, number, stated, none);
-                                         });
+    return detail::fit_automatically<Dmp>(
+        demonstrations, count, options,
+        [](const Demonstration* one, std::size_t number, const DmpOptions& stated) {
+          std::unique_ptr<detail::ForcingFit> none;
+          return fit_together(one, number, stated, none);
+        });
   }
   const DmpOptions resolved = options.resolved();
   std::vector<detail::PositionLesson> lessons;

@@ -91,7 +91,9 @@ Found noise_of(const One& demonstration, Index columns) {
   demonstration.denoised(&found);
   return {{found, columns}};
 }
-Found noise_of(const Demonstration& demonstration) { return noise_of(demonstration, demonstration.dimension()); }
+Found noise_of(const Demonstration& demonstration) {
+  return noise_of(demonstration, demonstration.dimension());
+}
 Found noise_of(const OrientationDemonstration& demonstration) { return noise_of(demonstration, 3); }
 Found noise_of(const PoseDemonstration& demonstration) {
   NoiseEstimate position, orientation;
@@ -103,7 +105,8 @@ Found noise_of(const PoseDemonstration& demonstration) {
 template <class Value>
 VectorXd by_column(const Found& found, Value value) {
   std::vector<double> numbers;
-  for (const auto& [noise, columns] : found) numbers.insert(numbers.end(), static_cast<std::size_t>(columns), value(noise, columns));
+  for (const auto& [noise, columns] : found)
+    numbers.insert(numbers.end(), static_cast<std::size_t>(columns), value(noise, columns));
   return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
 }
 
@@ -159,7 +162,8 @@ VectorXd rmse_of(const Model& model, const Demonstrations& demonstrations, Vecto
 template <class Model, class Demonstrations>
 int suggested(const Model& model, const Demonstrations& demonstrations, const Tolerance& tolerance) {
   DmpOptions options = model.options();
-  options.derivatives = options.derivatives == Derivatives::smooth ? Derivatives::automatic : options.derivatives;
+  options.derivatives =
+      options.derivatives == Derivatives::smooth ? Derivatives::automatic : options.derivatives;
   for (int count = kFewestKernels; count <= kMostKernels; count *= 2) {
     options.basis_count = count;
     const Model tried = Model::fit(demonstrations, options);

@@ -118,7 +118,8 @@ RowMatrix turning_forcing(const OrientationTrajectory& motion, double tau, const
     const Vector3d along = turn * with.velocity;
     const Vector3d v = inverse * (tau * motion.angular_velocity.row(k).transpose() - along);
     const Vector3d own = rates.velocity(v);
-    const Vector3d rest = turn * with.acceleration + own.cross(along) + rates.acceleration(v, Vector3d::Zero());
+    const Vector3d rest =
+        turn * with.acceleration + own.cross(along) + rates.acceleration(v, Vector3d::Zero());
     const Vector3d a = inverse * (tau * tau * motion.angular_acceleration.row(k).transpose() - rest);
     forcing.row(k) = (a - stiffness * (goal - p) + *options.orientation_alpha * v).transpose();
   }
@@ -160,7 +161,8 @@ OrientationForm without_reference(double largest_log, const DmpOptions& options)
   return far ? OrientationForm::log_linear : OrientationForm::ude;
 }
 
-std::optional<TurningReference> reference_along(const std::vector<const OrientationDemonstration*>& together) {
+std::optional<TurningReference> reference_along(
+    const std::vector<const OrientationDemonstration*>& together) {
   std::vector<VectorXd> phases;
   std::vector<RowMatrix> tables;
   for (const OrientationDemonstration* one : together) {
@@ -178,8 +180,9 @@ void settle_form(DmpOptions& options, double largest_log, const RowMatrix& refer
   if (options.orientation_form == OrientationForm::automatic)
     options.orientation_form = turns ? OrientationForm::turning : without_reference(largest_log, options);
   if (turns != (options.orientation_form == OrientationForm::turning))
-    throw InvalidArgument(turns ? "reference: given, expected none unless options.orientation_form is turning."
-                                : "reference: none, expected one for options.orientation_form turning.");
+    throw InvalidArgument(turns
+                              ? "reference: given, expected none unless options.orientation_form is turning."
+                              : "reference: none, expected one for options.orientation_form turning.");
   if (turns) TurningReference{reference};
 }
 
@@ -191,8 +194,8 @@ std::optional<TurningReference> choose_form(DmpOptions& options,
     for (const OrientationDemonstration* one : together)
       largest = std::max(largest, largest_log(*one, options.log_branch));
   const bool may_turn = options.log_branch == LogBranch::lifted && options.scaling == Scaling::none;
-  const bool wanted = form == OrientationForm::turning ||
-                      (form == OrientationForm::automatic && may_turn && largest > kNear);
+  const bool wanted =
+      form == OrientationForm::turning || (form == OrientationForm::automatic && may_turn && largest > kNear);
   std::optional<TurningReference> reference;
   if (wanted) reference = reference_along(together);
   if (form == OrientationForm::turning && !reference)

@@ -80,7 +80,8 @@ DmpOptions DmpOptions::resolved() const {
   require_whole(passes, 10000, "passes", "");
   if (orientation_form == OrientationForm::turning && scaling != Scaling::none)
     throw InvalidArgument(
-        "options.scaling: OrientationForm::turning has no way from start to goal to scale by, expected none.");
+        "options.scaling: OrientationForm::turning has no way from start to goal to scale by, expected "
+        "none.");
   result.beta = beta.value_or(alpha / 4.0);
   result.orientation_alpha = orientation_alpha.value_or(alpha);
   result.orientation_beta =

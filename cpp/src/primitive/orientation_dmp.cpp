@@ -91,11 +91,12 @@ OrientationDmp OrientationDmp::fit_together(const OrientationDemonstration* demo
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
   if (options.automatic()) {
     options.validate();
-    return detail::fit_automatically<OrientationDmp>(demonstrations, count, options,
-                                         [](const OrientationDemonstration* one, std::size_t number, const DmpOptions& stated) {
-                                           std::unique_ptr<detail::ForcingFit> none;
-                                           return fit_together(one, number, stated, none);
-                                         });
+    return detail::fit_automatically<OrientationDmp>(
+        demonstrations, count, options,
+        [](const OrientationDemonstration* one, std::size_t number, const DmpOptions& stated) {
+          std::unique_ptr<detail::ForcingFit> none;
+          return fit_together(one, number, stated, none);
+        });
   }
   DmpOptions resolved = options.resolved();
   std::vector<const OrientationDemonstration*> turns;

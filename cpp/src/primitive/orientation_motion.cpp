@@ -58,8 +58,8 @@ OrientationMotion::OrientationMotion(const DmpOptions& options, const Eigen::Mat
   of_p.beta = options.orientation_beta;
   const TurningReference turns(reference);
   const Vector3d zero = Vector3d::Zero();
-  turning_.emplace(Turning{turns, PositionMotion(of_p, zero, zero, zero, zero), turns.at(0.0).turn.conjugate(),
-                           turns.at(1.0).turn.conjugate()});
+  turning_.emplace(Turning{turns, PositionMotion(of_p, zero, zero, zero, zero),
+                           turns.at(0.0).turn.conjugate(), turns.at(1.0).turn.conjugate()});
   set_turning_goal(true);
   begin_turning(q_, eta);
 }

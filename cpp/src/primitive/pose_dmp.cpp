@@ -151,11 +151,12 @@ PoseDmp PoseDmp::fit_together(const PoseDemonstration* demonstrations, std::size
   if (count == 0) throw InvalidArgument("demonstrations: none, expected at least one.");
   if (options.automatic()) {
     options.validate();
-    return detail::fit_automatically<PoseDmp>(demonstrations, count, options,
-                                         [](const PoseDemonstration* one, std::size_t number, const DmpOptions& stated) {
-                                           std::unique_ptr<detail::ForcingFit> none;
-                                           return fit_together(one, number, stated, none);
-                                         });
+    return detail::fit_automatically<PoseDmp>(
+        demonstrations, count, options,
+        [](const PoseDemonstration* one, std::size_t number, const DmpOptions& stated) {
+          std::unique_ptr<detail::ForcingFit> none;
+          return fit_together(one, number, stated, none);
+        });
   }
   DmpOptions resolved = options.resolved();
   std::vector<const OrientationDemonstration*> turns;

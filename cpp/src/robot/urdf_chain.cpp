@@ -192,7 +192,8 @@ class JointTable {
     model_.effort_limit = Eigen::Map<const Eigen::VectorXd>(effort_.data(), n);
     model_.acceleration_limit = Eigen::VectorXd::Constant(n, assumed_acceleration);
     model_.jerk_limit = Eigen::VectorXd::Constant(n, infinity);
-    model_.limit_sources = {sources(model_.lower.cwiseAbs().cwiseMin(model_.upper.cwiseAbs())), sources(model_.velocity_limit),
+    model_.limit_sources = {sources(model_.lower.cwiseAbs().cwiseMin(model_.upper.cwiseAbs())),
+                            sources(model_.velocity_limit),
                             std::vector<LimitSource>(ranges_.size(), LimitSource::assumed),
                             sources(model_.jerk_limit), sources(model_.effort_limit)};
   }

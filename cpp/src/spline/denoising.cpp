@@ -33,7 +33,7 @@ constexpr double kRestContrast = 12.0;  // busy over calm speed
 constexpr double kFirstCutoff = 12.0;   // Hz
 constexpr double kLowestCutoff = 1.5;   // Hz
 constexpr double kCutoffStep = 0.85;
-constexpr double kMostWander = 0.06;    // of the extent: a motion that vibrates all along is no noise
+constexpr double kMostWander = 0.06;  // of the extent: a motion that vibrates all along is no noise
 constexpr double kRestUneven = 1.4;
 constexpr double kRestSharpness = 2.0;
 constexpr std::size_t kRestWindows = 6;
@@ -92,7 +92,8 @@ double largest_second_difference(const VectorXd& weights, const RowMatrix& value
   double largest = 0.0;
   for (Index k = 1; k + 1 < values.rows(); ++k)
     if (weights.segment<3>(k - 1).minCoeff() > 0.0)
-      largest = std::max(largest, (values.row(k + 1) - 2.0 * values.row(k) + values.row(k - 1)).squaredNorm());
+      largest =
+          std::max(largest, (values.row(k + 1) - 2.0 * values.row(k) + values.row(k - 1)).squaredNorm());
   return std::sqrt(largest);
 }
 

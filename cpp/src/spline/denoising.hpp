@@ -19,7 +19,8 @@ Eigen::VectorXd measured_weights(const Eigen::VectorXd& measured, Eigen::Index c
 /// The smoothing grid of a demonstration, made when it is needed.
 class LazyGrid {
  public:
-  LazyGrid(const Eigen::VectorXd& times, Eigen::VectorXd weights) : times_(times), weights_(std::move(weights)) {}
+  LazyGrid(const Eigen::VectorXd& times, Eigen::VectorXd weights)
+      : times_(times), weights_(std::move(weights)) {}
   const Eigen::VectorXd& times() const noexcept { return times_; }
   const Eigen::VectorXd& weights() const noexcept { return weights_; }
   SmoothingGrid& get();

@@ -21,8 +21,8 @@ RowVectorXd divided_difference(const VectorXd& times, const RowMatrix& values, I
   for (Index k = 0; k <= order; ++k) table.row(k) = values.row(first + step * k);
   for (int m = 1; m <= order; ++m)
     for (Index k = 0; k <= order - m; ++k)
-      table.row(k) = m * (table.row(k + 1) - table.row(k)) /
-                     (times[first + step * (k + m)] - times[first + step * k]);
+      table.row(k) =
+          m * (table.row(k + 1) - table.row(k)) / (times[first + step * (k + m)] - times[first + step * k]);
   return table.row(0);
 }
 

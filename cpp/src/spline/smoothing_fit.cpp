@@ -122,7 +122,8 @@ SmoothingGrid::SmoothingGrid(const VectorXd& times, const VectorXd& weights)
 Index SmoothingGrid::level_for(double lambda) const {
   const double freedom = 3.0 + 1.05 * measured_ * std::pow(std::max(lambda / unit_, 1e-6), -1.0 / 6.0);
   Index every = 1;
-  while (static_cast<double>(times_.size()) / static_cast<double>(2 * every) > 5.0 * freedom + 20.0) every *= 2;
+  while (static_cast<double>(times_.size()) / static_cast<double>(2 * every) > 5.0 * freedom + 20.0)
+    every *= 2;
   return every;
 }
 

@@ -113,7 +113,7 @@ class SmoothingFit {
   const RowMatrix& projected(double lambda);
 
   SmoothingGrid& grid_;
-  RowMatrix values_;          // less their mean, for the digits of the residual
+  RowMatrix values_;  // less their mean, for the digits of the residual
   Eigen::RowVectorXd mean_;
   double squares_;
   std::map<Eigen::Index, RowMatrix> projected_;
