@@ -6,7 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 venv=$root/.venv
 build=$root/build/release
 log=$root/build/setup.log
-cache=${XDG_CACHE_HOME:-$HOME/.cache}/dmpcpp  # PyBullet, compiled once for all checkouts
+cache=${XDG_CACHE_HOME:-${HOME:-$root/build}/.cache}/dmpcpp  # PyBullet, compiled once for all checkouts
 
 # Debian 12 and 13 and Ubuntu 24.04 call them the same.
 packages_demo=(g++ cmake ninja-build libeigen3-dev liborocos-kdl-dev liburdfdom-dev nlohmann-json3-dev

@@ -69,6 +69,11 @@ _PACKAGES = (  # module, distribution, what for, extra, needed
     ("viser", "viser", "the moving arm in reports, dmpcpp view", "view", False),
     ("yourdfpy", "yourdfpy", "the arm's shapes in reports, dmpcpp view", "view", False),
     ("rosbags", "rosbags", "ROS bags and MCAP recordings", "formats", False),
+    ("pyarrow", "pyarrow", "LeRobot data sets", "datasets", False),
+    ("h5py", "h5py", "HDF5 data sets", "datasets", False),
+    ("zarr", "zarr", "UMI data sets", "datasets", False),
+    ("mcap", "mcap", "Foxglove MCAP recordings", "datasets", False),
+    ("mcap_protobuf", "mcap-protobuf-support", "Foxglove MCAP recordings", "datasets", False),
     ("imageio_ffmpeg", "imageio-ffmpeg", "--video", "video", False),
     ("distributed", "distributed", "batches on a cluster", "cluster", False),
 )

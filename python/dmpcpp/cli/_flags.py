@@ -61,9 +61,10 @@ def in_flags(message: str, flags: Mapping[str, str] | Iterable[str]) -> str:
     if not flags:
         return message
     names = "|".join(sorted(map(re.escape, flags), key=len, reverse=True))
-    message = re.sub(rf"(?<![\w-])({names})=({_VALUE})", lambda m: _option(flags[m[1]], m[2]), message)
+    before, behind = r"(?<![\w\-/'\".])", r"(?![\w=(/'\"]|\.\w)"  # no part of a path, nothing that is quoted
+    message = re.sub(rf"{before}({names})=({_VALUE})", lambda m: _option(flags[m[1]], m[2]), message)
     words = "|".join(sorted((name for name in flags if "_" in name.strip("_")), key=len, reverse=True))
-    return re.sub(rf"(?<![\w-])({words})(?![\w=(])", lambda m: flags[m[1]], message) if words else message
+    return re.sub(rf"{before}({words}){behind}", lambda m: flags[m[1]], message) if words else message
 
 
 def _typed(parameter: click.Parameter) -> str:

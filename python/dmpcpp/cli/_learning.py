@@ -141,7 +141,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
         console.print(checks_table(lesson.checks))
     console.print(
         f"{lesson.model.options.basis_count} kernels, {lesson.model.duration:.2f} s, {way(lesson.model)} m; "
-        f"written to {out}",
+        + (f"written to {out}" if out else "no model written: the takes do not belong together"),
         soft_wrap=True,
         markup=False,
     )

@@ -24,7 +24,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._joints import clear_of_itself, limit_factor
 from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
 from dmpcpp.recordings import Axis, Recording
-from dmpcpp.simulation import Bullet
+from dmpcpp.simulation import default_simulator
 
 __all__ = ["place", "placed"]
 
@@ -110,10 +110,10 @@ def placed(
     InvalidArgument
         One of them is no motion of a hand (`motion.plausible`), or no placement carries the first.
     MissingDependency
-        PyBullet, in whose geometry contacts are looked at, is not installed.
+        Neither PyBullet nor MuJoCo, which finds contacts, is installed.
     """
     whole = [motion.plausible(motion.continuous(recording)) for recording in recordings]
-    clear = clear_of_itself(arm, Bullet)
+    clear = clear_of_itself(arm, default_simulator)
     placement = place(whole[0], arm, seed, scale=scale, accept=clear)
     return [placement.apply_to(recording) for recording in whole]
 

@@ -17,7 +17,7 @@ from dmpcpp.learning import learn
 from dmpcpp.planning import clear_of_itself
 from dmpcpp.recordings import Recording
 from dmpcpp.robot import arms
-from dmpcpp.simulation import Bullet
+from dmpcpp.simulation import default_simulator
 from dmpcpp.trials.generality._motions import NOISE, drawn_placement, noisy, random_change, random_motion
 
 __all__ = ["Result", "Trial", "attempt"]
@@ -161,7 +161,7 @@ def _executed(
 def _follows(recording: Recording, arm: Arm) -> bool:
     """Whether the arm follows it where it is, without touching itself or the floor."""
     joints = InverseKinematics(arm).follow(motion.poses(recording), times=recording.time, thorough=False)
-    return joints.report.complete and clear_of_itself(arm, Bullet)(joints)
+    return joints.report.complete and clear_of_itself(arm, default_simulator)(joints)
 
 
 def _imitated(recording: Recording, arm: Arm, **options: Any) -> tuple[Imitation | None, str]:
