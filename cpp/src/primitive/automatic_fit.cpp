@@ -34,7 +34,8 @@ double share_left(const Closeness& part) {
 Closeness closeness(const Demonstration& motion, const NoiseEstimate& noise) {
   const RowMatrix& y = motion.position();
   const double extent = (y.colwise().maxCoeff() - y.colwise().minCoeff()).norm();
-  return closeness(noise, static_cast<int>(y.cols()), extent, kRounding * y.cwiseAbs().maxCoeff());
+  return closeness(noise, static_cast<int>(y.cols()), extent,
+                   std::max(kRounding * y.cwiseAbs().maxCoeff(), 1e-12));
 }
 
 Closeness closeness(const OrientationDemonstration& motion, const NoiseEstimate& noise) {

@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 constexpr Index kFewest = 16;           // samples that a decision needs
 constexpr double kUsualRepeats = 0.3;   // share of repeated samples from which on repeating is no failure
+constexpr Index kLongestHeld = 3;       // samples: a longer run of one value is a rest
 constexpr double kMostFreedom = 0.5;    // the motion fills less than half of what the sampling can hold
 constexpr double kMostFlatness = 1.55;  // white noise 1.15 to 1.29, motions 1.9 and more
 constexpr double kLeastEvenness = 0.5;
@@ -84,7 +85,7 @@ Unpredicted unpredicted(const VectorXd& times, const VectorXd& weights, const Ro
     sum.middle += squares / (w[3] * w[3]);
     count += 1.0;
   }
-  if (count == 0.0) return sum;
+  if (count == 0.0) return {std::numeric_limits<double>::infinity(), 0.0};  // no evidence of clean samples
   return {std::sqrt(sum.sigma / count), std::sqrt(sum.middle / count)};
 }
 
@@ -293,8 +294,12 @@ class Decision {
 VectorXd measured_weights(const VectorXd& measured, Index count, const std::function<bool(Index)>& repeats) {
   VectorXd weights = measured.size() == count ? measured : VectorXd(VectorXd::Ones(count));
   std::vector<Index> repeated;
-  for (Index k = 1; k < count; ++k)
-    if (repeats(k)) repeated.push_back(k);
+  for (Index k = 1; k < count;) {
+    Index end = k;
+    while (end < count && repeats(end)) ++end;
+    for (Index i = k; end - k <= kLongestHeld && i < end; ++i) repeated.push_back(i);
+    k = std::max(end, k + 1);
+  }
   if (static_cast<double>(repeated.size()) >= kUsualRepeats * static_cast<double>(count)) return weights;
   for (const Index k : repeated) weights[k] = 0.0;
   return weights;

@@ -37,7 +37,7 @@ _EPISODE = re.compile(
 _DROID = "observation/robot_state/cartesian_position"
 _DROID_TIME = "observation/timestamp/robot_state/read_start"
 _TIMES = re.compile(r"(?:.*/)?(?:time|times|timestamps?|t)")
-_ACTION = re.compile(r"(?:.*/)?actions?(?:/.*|$)")
+_ACTION = re.compile(r"(?:.*/)?(?:actions?(?:/.*|$)|next_obs/.*)")  # commands, and observations one step later
 _MOST_ARRAYS = 20_000
 _LOW_CONFIDENCE = 0.1
 
@@ -177,6 +177,8 @@ def _sampling(file: _File, count: int, stated: Stated) -> Sampling:
 
 def _control_freq(file: Any) -> float | None:
     """Return the rate [Hz] in the settings of a robomimic environment, if it is there."""
+    if type(file.get("data", getlink=True)).__name__ != "HardLink":  # it may lead to another file
+        return None
     try:
         settings = json.loads(str(file["data"].attrs["env_args"])[: 1 << 20])
         rate = settings.get("env_kwargs", {}).get("control_freq", settings.get("control_freq"))

@@ -31,10 +31,15 @@ from dmpcpp.recordings._world import World
 __all__ = ["READER", "is_folder"]
 
 _INFO = Path("meta") / "info.json"
-_FEATURES = ("observation.state", "observation.ee_pose", "observation.eef_pose", "action")
+_FEATURES = (
+    "observation.state",
+    "observation.ee_pose",
+    "observation.eef_pose",
+)  # no action: a command
 _SIDES = {"_l": "left", "_r": "right", "_left": "left", "_right": "right"}
 _LONGEST_INFO = 4 * 1024 * 1024  # characters of meta/info.json
 _MOST_FILES = 100_000
+_MOST_ROWS = 10_000_000  # of one file; repeated values take no space in it
 
 
 @dataclass(frozen=True)
@@ -181,6 +186,8 @@ def _column(file: Path, name: str) -> Array:
             )
         if size > 64 * LARGEST:
             raise InvalidArgument(f"{file.name}: {size} bytes, expected at most {64 * LARGEST}.")
+        if opened.metadata.num_rows > _MOST_ROWS:
+            raise InvalidArgument(f"{file.name}: {opened.metadata.num_rows} rows, expected at most {_MOST_ROWS}.")
         column = opened.read(columns=[name]).column(name).to_pylist()
         return np.array(column, dtype=np.float64)
     except InvalidArgument:
