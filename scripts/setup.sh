@@ -92,6 +92,7 @@ make_venv() {
 if sys.version_info >= (3, 14):
     print("dmpcpp: Python %d.%d is newer than those that are tested, 3.11 to 3.13" % sys.version_info[:2])'
   step "Python environment in .venv" "$python" -m venv --clear "$venv"
+  rm -f "$build/CMakeCache.txt" "$build"/built-* "$root"/python/dmpcpp/_core.*.so  # of another Python
 }
 
 # A wheel of the package index or one that was compiled here before; else it is compiled, by one checkout at a time.

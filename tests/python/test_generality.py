@@ -233,7 +233,7 @@ def command(*arguments: object, cwd: Path) -> subprocess.CompletedProcess[str]:
     ("arguments", "message"),
     [
         (["--arm", "ur99"], "'ur99' is not known"),
-        (["--noise", "loud"], "noises: ['loud']"),
+        (["--noise", "loud"], "--noise: ['loud']"),
         (["-k", "0"], "0 is not in the range"),
     ],
 )

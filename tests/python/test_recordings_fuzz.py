@@ -262,7 +262,7 @@ def zarr(folder) -> bytes:
 
 def foxglove(folder) -> bytes:
     package = pytest.importorskip("mcap.writer")
-    with (folder / "seed.mcap").open("wb") as file:
+    with (folder / "foxglove.mcap").open("wb") as file:
         writer = package.Writer(file)
         writer.start()
         channel = writer.register_channel(
@@ -276,7 +276,7 @@ def foxglove(folder) -> bytes:
             content = {"timestamp": {"sec": k, "nsec": 0}, "frame_id": "world", "pose": pose}
             writer.add_message(channel, log_time=k, publish_time=k, data=json.dumps(content).encode())
         writer.finish()
-    return (folder / "seed.mcap").read_bytes()
+    return (folder / "foxglove.mcap").read_bytes()
 
 
 POSES = ("tx", "ty", "tz", "qx", "qy", "qz", "qw")

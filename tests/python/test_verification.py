@@ -441,9 +441,9 @@ def test_a_limit_that_is_not_kept_is_exit_status_3(files):
     [
         (("--tolerance", "speed=1"), "expected NAME=VALUE with a NAME of position_rmse"),
         (("--tolerance", "position_max=x"), "expected a number after '='"),
-        (("--time-unit", "h"), "time_unit: 'h', expected one of s, ms, us, ns"),
+        (("--time-unit", "h"), "--time-unit: 'h', expected one of s, ms, us, ns"),
         (("--arm", "iiwa"), "expected those of the arm"),
-        (("--low-pass", "-1"), "cutoff: -1.0"),
+        (("--low-pass", "-1"), "--low-pass: -1.0"),
     ],
 )
 def test_wrong_usage_is_one_line_and_exit_status_2(files, words, message):

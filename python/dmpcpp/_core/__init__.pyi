@@ -2105,4 +2105,4 @@ def to_json(model: PoseDmp) -> str:
     """
     The text of a model file.
     """
-__version__: str = '0.1.0'
+__version__: str = '0.2.0'
