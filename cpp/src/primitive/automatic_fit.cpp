@@ -10,13 +10,13 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kShareOfNoise = 0.25;   // of the error that smoothing leaves: 3 % more in all
-constexpr double kShareOfDetail = 0.4;   // of what neighbours leave open of a sample
-constexpr double kFinest = 3e-6;         // of the extent
-constexpr double kCoarsest = 3e-4;       // likewise
-constexpr double kLeastExtent = 0.3;     // rad; what turns less is no motion of the orientation
-constexpr double kRounding = 1e-9;       // of the largest value
-constexpr Index kMostTimes = 400;        // at which a model is compared
+constexpr double kShareOfNoise = 0.25;  // of the error that smoothing leaves: 3 % more in all
+constexpr double kShareOfDetail = 0.4;  // of what neighbours leave open of a sample
+constexpr double kFinest = 3e-6;        // of the extent
+constexpr double kCoarsest = 3e-4;      // likewise
+constexpr double kLeastExtent = 0.3;    // rad; what turns less is no motion of the orientation
+constexpr double kRounding = 1e-9;      // of the largest value
+constexpr Index kMostTimes = 400;       // at which a model is compared
 
 /// How close is close enough. The error that smoothing leaves is sigma sqrt(axes freedom).
 Closeness closeness(const NoiseEstimate& noise, int axes, double extent, double least) {
@@ -39,7 +39,30 @@ Closeness closeness(const OrientationDemonstration& motion, const NoiseEstimate&
   return closeness(noise, 3, extent, kRounding);
 }
 
-/// At most so many of the times of a demonstration, the first and the last among them.
+double root_of_mean(double squares, std::size_t count) {
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
+double distance_of(const Demonstration& motion, const std::vector<Index>& chosen, const RowMatrix& position) {
+  double squares = 0.0;
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    squares += (position.row(static_cast<Index>(k)) - motion.position().row(chosen[k])).squaredNorm();
+  return root_of_mean(squares, chosen.size());
+}
+
+template <class RotationAt>
+double angle_of(const OrientationDemonstration& motion, const std::vector<Index>& chosen,
+                RotationAt rotation) {
+  double squares = 0.0;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const double angle = so3::distance(rotation(k), motion.rotation()[static_cast<std::size_t>(chosen[k])]);
+    squares += angle * angle;
+  }
+  return root_of_mean(squares, chosen.size());
+}
+
+}  // namespace
+
 std::vector<Index> some(Index count) {
   const Index wanted = std::min(count, kMostTimes);
   std::vector<Index> chosen;
@@ -52,27 +75,6 @@ VectorXd times_at(const VectorXd& time, const std::vector<Index>& chosen) {
   for (std::size_t k = 0; k < chosen.size(); ++k) times[static_cast<Index>(k)] = time[chosen[k]];
   return times;
 }
-
-double root_of_mean(double squares, std::size_t count) { return std::sqrt(squares / static_cast<double>(count)); }
-
-double distance_of(const Demonstration& motion, const std::vector<Index>& chosen, const RowMatrix& position) {
-  double squares = 0.0;
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    squares += (position.row(static_cast<Index>(k)) - motion.position().row(chosen[k])).squaredNorm();
-  return root_of_mean(squares, chosen.size());
-}
-
-template <class RotationAt>
-double angle_of(const OrientationDemonstration& motion, const std::vector<Index>& chosen, RotationAt rotation) {
-  double squares = 0.0;
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const double angle = so3::distance(rotation(k), motion.rotation()[static_cast<std::size_t>(chosen[k])]);
-    squares += angle * angle;
-  }
-  return root_of_mean(squares, chosen.size());
-}
-
-}  // namespace
 
 Prepared<Demonstration> prepared(const Demonstration& given, Derivatives derivatives) {
   NoiseEstimate noise;
@@ -95,29 +97,25 @@ Prepared<PoseDemonstration> prepared(const PoseDemonstration& given, Derivatives
   return {motion, {closeness(motion.position(), position), closeness(motion.orientation(), orientation)}};
 }
 
-double miss(const Dmp& model, const Prepared<Demonstration>& aim) {
-  const std::vector<Index> chosen = some(aim.motion.size());
-  const Trajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
-  return distance_of(aim.motion, chosen, again.position) / aim.parts[0].tolerance;
+void add_misses(std::vector<double>& misses, const Demonstration& motion, const std::vector<Index>& chosen,
+                const Trajectory& again) {
+  misses.push_back(distance_of(motion, chosen, again.position));
 }
 
-double miss(const OrientationDmp& model, const Prepared<OrientationDemonstration>& aim) {
-  const std::vector<Index> chosen = some(aim.motion.size());
-  const OrientationTrajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
-  return angle_of(aim.motion, chosen, [&](std::size_t k) { return again.rotation[k]; }) / aim.parts[0].tolerance;
+void add_misses(std::vector<double>& misses, const OrientationDemonstration& motion,
+                const std::vector<Index>& chosen, const OrientationTrajectory& again) {
+  misses.push_back(angle_of(motion, chosen, [&](std::size_t k) { return again.rotation[k]; }));
 }
 
-double miss(const PoseDmp& model, const Prepared<PoseDemonstration>& aim) {
-  const std::vector<Index> chosen = some(aim.motion.size());
-  const PoseTrajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
+void add_misses(std::vector<double>& misses, const PoseDemonstration& motion,
+                const std::vector<Index>& chosen, const PoseTrajectory& again) {
   RowMatrix position(static_cast<Index>(chosen.size()), 3);
   for (std::size_t k = 0; k < chosen.size(); ++k)
     position.row(static_cast<Index>(k)) = again.pose[k].topRightCorner<3, 1>().transpose();
-  const double angle = angle_of(aim.motion.orientation(), chosen, [&](std::size_t k) -> Eigen::Matrix3d {
+  misses.push_back(distance_of(motion.position(), chosen, position));
+  misses.push_back(angle_of(motion.orientation(), chosen, [&](std::size_t k) -> Eigen::Matrix3d {
     return again.pose[k].topLeftCorner<3, 3>();
-  });
-  return std::max(distance_of(aim.motion.position(), chosen, position) / aim.parts[0].tolerance,
-                  angle / aim.parts[1].tolerance);
+  }));
 }
 
 DmpOptions with_regression(const DmpOptions& options) {

@@ -89,16 +89,16 @@ RowMatrix least_squares(int spans, const std::vector<VectorXd>& phases,
 
 }  // namespace
 
-TurningReference::TurningReference(const RowMatrix& coefficients)
-    : distinct_(coefficients) {
+TurningReference::TurningReference(const RowMatrix& coefficients) : distinct_(coefficients) {
   const Index spans = coefficients.rows() - 1;
   if (coefficients.cols() != 4 || spans < 2 || spans > kMostSpans || !coefficients.allFinite())
     throw InvalidArgument("reference: " + std::to_string(coefficients.rows()) + " x " +
-                          std::to_string(coefficients.cols()) + ", expected 3 to 201 rows of 4 finite numbers.");
+                          std::to_string(coefficients.cols()) +
+                          ", expected 3 to 201 rows of 4 finite numbers.");
   for (const Index end : {Index{0}, spans})
     if (std::abs(coefficients.row(end).norm() - 1.0) > 1e-6)
-      throw InvalidArgument(indexed("reference", end) + ": of length " + number(coefficients.row(end).norm()) +
-                            ", expected 1.");
+      throw InvalidArgument(indexed("reference", end) + ": of length " +
+                            number(coefficients.row(end).norm()) + ", expected 1.");
   knots_ = even_knots(static_cast<int>(spans));
   coefficients_[0] = all_of(coefficients);
   for (int order = 1; order <= 2; ++order)
@@ -140,8 +140,7 @@ TurningReference::State TurningReference::at(double s) const noexcept {
   const double squared = c[0].squaredNorm();
   const Quaterniond back = quaternion(c[0]).conjugate();
   const Vector3d velocity = 2.0 / squared * (quaternion(c[1]) * back).vec();
-  const Vector3d acceleration =
-      2.0 / squared * ((quaternion(c[2]) * back).vec() - c[0].dot(c[1]) * velocity);
+  const Vector3d acceleration = 2.0 / squared * ((quaternion(c[2]) * back).vec() - c[0].dot(c[1]) * velocity);
   return {Quaterniond(quaternion(c[0]).coeffs() / std::sqrt(squared)), velocity, acceleration};
 }
 
