@@ -456,7 +456,7 @@ class DmpOptions:
     @staticmethod
     def source() -> DmpOptions:
         """
-        The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 mended.
+        The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 fixed.
         """
     def __copy__(self) -> DmpOptions:
         ...

@@ -94,7 +94,7 @@ def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfRepor
         robot = ET.fromstring(text)
     except ET.ParseError as error:
         return UrdfReport(
-            str(path), (Defect(str(path), f"not XML: {error}", "Mend the file at that place.", True),), None
+            str(path), (Defect(str(path), f"not XML: {error}", "Fix the file at that place.", True),), None
         )
     found = [defect for look in _LOOKS for defect in look(robot, path.absolute().parent)]
     arm, of_loading = _loaded(path, base, tip)
