@@ -17,8 +17,8 @@ preset() { cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset 
 # In an environment of its own, so that it needs neither a compiler nor dmpcpp; clang-format as the commit hook has it.
 check_lint() {
   local tools=build/lint/bin
-  [ -x $tools/clang-format ] || { python3 -m venv --clear build/lint &&
-    $tools/pip install -q "ruff>=0.6" "$(grep -o 'clang-format==[0-9.]*' .pre-commit-config.yaml)" || return 1; }
+  [ -x $tools/pip ] || python3 -m venv --clear build/lint || return 1
+  $tools/pip install -q "$(grep -o 'ruff==[0-9.]*' pyproject.toml)" "$(grep -o 'clang-format==[0-9.]*' .pre-commit-config.yaml)" || return 1
   $tools/ruff check python tests benchmarks scripts && $tools/ruff format --check python tests benchmarks scripts &&
     find cpp python/bindings tests/cpp tests/fuzz examples benchmarks/cpp -name '*.[ch]pp' -print0 |
     xargs -0 $tools/clang-format --dry-run -Werror
@@ -75,11 +75,11 @@ check_python-asan() {
 
 names=("$@")
 [ ${#names[@]} -gt 0 ] || names=("${all[@]}")
-[ "${names[*]}" = lint ] || set_up
-failed=0
 for name in "${names[@]}"; do
   declare -F "check_$name" >/dev/null || { echo "check.sh: '$name' is unknown, expected one of ${all[*]}" >&2; exit 2; }
 done
+[ "${names[*]}" = lint ] || set_up
+failed=0
 for name in "${names[@]}"; do
   started=$SECONDS
   if "check_$name" >"$logs/$name.log" 2>&1; then verdict=ok; else verdict=FAILED failed=1; fi

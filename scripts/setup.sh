@@ -7,6 +7,7 @@ venv=$root/.venv
 build=$root/build/release
 log=$root/build/setup.log
 cache=${XDG_CACHE_HOME:-${HOME:-$root/build}/.cache}/dmpcpp  # PyBullet, compiled once for all checkouts
+mkdir -p "$cache" 2>/dev/null && [ -w "$cache" ] || cache=$root/build/cache  # a home that cannot be written
 
 # Debian 12 and 13 and Ubuntu 24.04 call them the same.
 packages_demo=(g++ cmake ninja-build libeigen3-dev liborocos-kdl-dev liburdfdom-dev nlohmann-json3-dev
@@ -73,8 +74,9 @@ install_packages() {
 
 # Python 3.11 or newer with venv and headers; DMPCPP_PYTHON names another than the system's.
 find_python() {
-  local candidate
-  for candidate in ${DMPCPP_PYTHON:-/usr/bin/python3 python3.13 python3.12 python3.11}; do
+  local candidate candidates=(/usr/bin/python3 python3.13 python3.12 python3.11)
+  [ -z "${DMPCPP_PYTHON:-}" ] || candidates=("$DMPCPP_PYTHON")
+  for candidate in "${candidates[@]}"; do
     "$candidate" -c 'import ensurepip, pathlib, sys, sysconfig, venv
 sys.exit(sys.version_info < (3, 11) or not pathlib.Path(sysconfig.get_path("include"), "Python.h").exists())' 2>/dev/null &&
       { echo "$candidate"; return; }
@@ -84,9 +86,16 @@ sys.exit(sys.version_info < (3, 11) or not pathlib.Path(sysconfig.get_path("incl
 
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
 
+# .venv is there, works, and is of the Python that DMPCPP_PYTHON names, where it names one.
+has_venv() {
+  "$venv/bin/python" -m pip --version >/dev/null 2>&1 || return
+  [ -z "${DMPCPP_PYTHON:-}" ] || [ "$(base_python "$venv/bin/python")" = "$(base_python "$DMPCPP_PYTHON")" ]
+}
+base_python() { "$1" -c 'import sys; print(sys.base_prefix, sys.version)' 2>/dev/null; }
+
 make_venv() {
   local python
-  "$venv/bin/python" -m pip --version >/dev/null 2>&1 && return
+  has_venv && return
   python=$(find_python) || exit 1
   "$python" -c 'import sys
 if sys.version_info >= (3, 14):
@@ -100,9 +109,14 @@ pip_bullet() { pip "$@" --no-deps --find-links "$cache" "pybullet>=3.2.5"; }
 install_bullet_wheel() { pip_bullet install --only-binary :all:; }
 install_bullet() {
   flock 8
-  install_bullet_wheel || { CFLAGS="-O2 -g0 -w" pip_bullet wheel -w "$cache" && install_bullet_wheel; }
+  install_bullet_wheel || { compile_bullet && install_bullet_wheel; }
   strip --strip-debug "$venv"/lib/python3*/site-packages/pybullet.*.so  # 130 MB in the wheels of the index
 } 8>>"$cache/lock"
+
+# Not isolated, so that it finds numpy: without it a picture is a list of numbers, and a film takes minutes.
+compile_bullet() {
+  pip install "numpy>=1.26" "setuptools<81" wheel && CFLAGS="-O2 -g0 -w" pip_bullet wheel --no-build-isolation -w "$cache"
+}
 
 installed() { "$venv/bin/python" -c 'import importlib.util as u, sys; sys.exit(not u.find_spec(sys.argv[1]))' "$1"; }
 
@@ -157,7 +171,7 @@ read_options() {
 set_up() {
   local purpose=$1
   read_options "${@:2}"
-  mkdir -p "$root/build" "$cache"
+  mkdir -p "$root/build" "$cache" || stop "needs to write to $root"
   exec 9>"$root/build/setup.lock"  # one set-up of a checkout at a time
   flock 9
   echo "=== $purpose, $(date)" >>"$log"

@@ -30,6 +30,12 @@ def panda() -> Arm:
     return _known_arm("panda")
 
 
+@pytest.fixture
+def needs_bullet() -> None:
+    """For a test of PyBullet itself; others take the engine that there is."""
+    pytest.importorskip("pybullet", reason="the extra `sim`")
+
+
 def _known_arm(name: str) -> Arm:
     pytest.importorskip("pybullet_data")
     return arms.find(name)

@@ -18,8 +18,6 @@ from dmpcpp.trials.generality._trial import _changed, _learning_cause
 from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
-pytest.importorskip("pybullet")
-
 DONE = Result(Trial("panda", "none", 0, 0), True, "", 0, 1.0, 1e-5, 1e-5, 1e-5, 1.5, 1e-8, 1e-8, 2.0)
 
 

@@ -8,9 +8,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
-pytest.importorskip("pybullet", reason="the extra `sim`")
-
 from click.testing import CliRunner
 from dmpcpp import arms, export, simulation, verification
 from dmpcpp.cli import main
@@ -73,6 +70,7 @@ def test_of_the_cycles_of_a_repeated_motion_the_lag_that_covers_all_is_found():
     assert verification.estimate_lag(joints, log) == pytest.approx(5.0, abs=1e-5)
 
 
+@pytest.mark.usefixtures("needs_bullet")
 def test_a_sound_run_is_verified_with_the_measures_of_the_simulated_one(plan, executed):
     result = verification.verify(PANDA, plan, recorded(executed, 0.0137), simulator=Bullet)
     assert result.ok, [check for check in result.checks if not check.ok]
@@ -147,6 +145,7 @@ def test_a_fault_in_the_log_is_caught(plan, fault, names):
     assert not result.ok
 
 
+@pytest.mark.usefixtures("needs_bullet")
 def test_an_arm_in_the_floor_is_seen_in_the_geometry():
     joints = reach(PANDA, [0.0, 0.9, 0.0, -1.75, 0.0, 2.55, 0.8], 3.0)
     log = JointLog(joints.time, joints.position, None, None, NAMES)
