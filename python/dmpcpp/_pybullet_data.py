@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import subprocess
 import sys
 import sysconfig
@@ -19,9 +20,24 @@ _WHEEL = ("--python-version=3.11", "--implementation=cp", "--abi=cp311", "--plat
 
 
 def find() -> Path | None:
-    """Folder of the installed package pybullet_data, found without importing it; None where there is none."""
+    """Folder pybullet_data, installed (found without importing it) or fetched; None where there is none."""
     spec = importlib.util.find_spec("pybullet_data")
-    return Path(spec.origin).parent if spec and spec.origin else None
+    if spec and spec.origin:
+        return Path(spec.origin).parent
+    return kept if (kept := _cache() / "pybullet_data").is_dir() else None
+
+
+def _cache() -> Path:
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "dmpcpp"
+
+
+def _site_packages() -> Path:
+    """Where this Python keeps packages, or the user's cache where that cannot be written."""
+    packages = Path(sysconfig.get_path("purelib"))
+    if os.access(packages, os.W_OK):
+        return packages
+    _cache().mkdir(parents=True, exist_ok=True)
+    return _cache()
 
 
 def fetch(site_packages: Path | None = None) -> Path:
@@ -30,7 +46,7 @@ def fetch(site_packages: Path | None = None) -> Path:
     Parameters
     ----------
     site_packages : Path, optional
-        Where to unpack; the packages of this Python unless given.
+        Where to unpack. Default: among the packages of this Python, or in the user's cache where those are read-only.
 
     Returns
     -------
@@ -40,9 +56,14 @@ def fetch(site_packages: Path | None = None) -> Path:
     Raises
     ------
     MissingDependency
-        pip found no wheel; the message ends with what it printed last.
+        There is no pip, or it found no wheel; the message ends with what it printed last.
     """
-    target = (site_packages or Path(sysconfig.get_path("purelib"))) / "pybullet_data"
+    if importlib.util.find_spec("pip") is None:
+        raise MissingDependency(
+            "this Python has no pip, which downloads pybullet's arms and motions. Add it: python -m ensurepip "
+            "(in an environment of uv: uv pip install pip), then run `dmpcpp fetch` again."
+        )
+    target = (site_packages or _site_packages()) / "pybullet_data"
     with TemporaryDirectory(dir=target.parent, prefix="pybullet_data-") as scratch:
         pip = (sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", *_WHEEL)
         done = subprocess.run([*pip, f"--dest={scratch}", "pybullet>=3.2.5"], capture_output=True, text=True)

@@ -40,6 +40,24 @@ def test_the_data_alone_comes_out_of_a_wheel(index, tmp_path):
     ]
 
 
+def test_read_only_packages_leave_the_data_in_the_users_cache(index, tmp_path, monkeypatch):
+    with ZipFile(index / WHEEL, "w") as wheel:
+        wheel.writestr("pybullet_data/__init__.py", "")
+        wheel.writestr("pybullet-9.9.dist-info/METADATA", METADATA)
+        wheel.writestr("pybullet-9.9.dist-info/WHEEL", "Wheel-Version: 1.0\n")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: ModuleSpec(name, None) if name == "pip" else None)
+    assert _pybullet_data.find() is None
+    monkeypatch.setattr(_pybullet_data.os, "access", lambda path, mode: False)
+    assert _pybullet_data.fetch() == tmp_path / "cache" / "dmpcpp" / "pybullet_data" == _pybullet_data.find()
+
+
+def test_a_python_without_pip_is_told_how_to_get_it(monkeypatch):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(MissingDependency, match="no pip.*python -m ensurepip"):
+        _pybullet_data.fetch()
+
+
 def test_without_a_wheel_the_error_is_what_pip_said_and_nothing_is_left(index, tmp_path):
     site = tmp_path / "site-packages"
     site.mkdir()

@@ -10,7 +10,7 @@ def fetch() -> None:
     """Download the arms and motions that ship with PyBullet, where PyBullet itself is not installed.
 
     `dmpcpp demo` needs them; with the extra mujoco it then runs in MuJoCo. 100 MB are downloaded and 140 MB kept,
-    beside the packages of this Python.
+    beside the packages of this Python, or in the user's cache (~/.cache/dmpcpp) where those are read-only.
 
     Example: dmpcpp fetch
     """

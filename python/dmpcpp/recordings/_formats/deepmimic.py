@@ -9,20 +9,19 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from dmpcpp._text import read_text
 from dmpcpp._typing import Array
-from dmpcpp.errors import InvalidArgument, MissingDependency
+from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._orientation import from_quaternions
 from dmpcpp.recordings._reader import Reader, pick_body
 from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import World
 
-__all__ = ["READER", "bodies", "clip_names", "clip_path", "read"]
+__all__ = ["READER", "bodies", "read"]
 
 _WIDTH = 44
 _ROOT_POSITION = slice(1, 4)
@@ -159,41 +158,3 @@ READER = Reader(
     bodies=bodies,
     read=read,
 )
-
-
-_PREFIX = "humanoid3d_"
-
-
-def clip_names() -> tuple[str, ...]:
-    """Return the short names of the clips, "dance_b" among them.
-
-    Raises
-    ------
-    MissingDependency
-        PyBullet is not installed.
-    """
-    return tuple(sorted(p.stem.removeprefix(_PREFIX) for p in _folder().glob(f"{_PREFIX}*.txt")))
-
-
-def clip_path(name: str) -> Path:
-    """Return the file of a clip.
-
-    Raises
-    ------
-    MissingDependency
-        PyBullet is not installed.
-    InvalidArgument
-        There is no such clip; the message lists those that exist.
-    """
-    names = clip_names()
-    if name not in names:
-        raise InvalidArgument(f"clip: no clip {name!r}. There are: {', '.join(names)}.")
-    return _folder() / f"{_PREFIX}{name}.txt"
-
-
-def _folder() -> Path:
-    # Looked up, not imported: the clips are plain files and need nothing of the simulator.
-    spec = find_spec("pybullet_data")
-    if spec is None or spec.origin is None:
-        raise MissingDependency('The clips ship with PyBullet. Install it: pip install "dmpcpp[sim]".')
-    return Path(spec.origin).parent / "data" / "motions"
