@@ -54,7 +54,7 @@ py::tuple arm_state(const Arm& arm) {
   return py::make_tuple(py::bytes(arm.urdf()), arm.base(), arm.tip(), arm.folder(), from_vector(arm.lower()),
                         from_vector(arm.upper()), from_vector(arm.velocity_limit()),
                         from_vector(arm.effort_limit()), from_vector(arm.acceleration_limit()),
-                        from_vector(arm.jerk_limit()), sources_of(arm));
+                        from_vector(arm.jerk_limit()), sources_of(arm), arm.tool_speed_limit());
 }
 
 LimitSources sources_from(const py::dict& named) {
@@ -65,7 +65,7 @@ LimitSources sources_from(const py::dict& named) {
   return sources;
 }
 
-// States of before 0.2 have neither acceleration, jerk nor sources.
+// States of before 0.2 have neither acceleration, jerk, sources nor tool speed.
 Arm arm_of_state(const py::tuple& state) {
   const auto text = [&](int i) { return state[i].cast<std::string>(); };
   const auto limit = [&](int i) { return to_vector(state[i].cast<Array>(), "limits"); };
@@ -75,19 +75,22 @@ Arm arm_of_state(const py::tuple& state) {
     limits.jerk = limit(9);
     limits.sources = sources_from(state[10].cast<py::dict>());
   }
+  if (state.size() > 11) limits.tool_speed = state[11].cast<double>();
   return Arm::from_urdf(text(0), text(1), text(2), text(3)).with_limits(limits);
 }
 
 LimitOverrides overrides_of(const std::optional<Array>& lower, const std::optional<Array>& upper,
                             const std::optional<Array>& velocity, const std::optional<Array>& effort,
                             const std::optional<Array>& acceleration, const std::optional<Array>& jerk,
+                            std::optional<double> tool_speed,
                             const std::variant<LimitSource, py::dict>& source) {
   LimitOverrides limits{optional_vector(lower, "lower"),
                         optional_vector(upper, "upper"),
                         optional_vector(velocity, "velocity"),
                         optional_vector(effort, "effort"),
                         optional_vector(acceleration, "acceleration"),
-                        optional_vector(jerk, "jerk")};
+                        optional_vector(jerk, "jerk"),
+                        tool_speed};
   if (const auto* one = std::get_if<LimitSource>(&source)) limits.source = *one;
   if (const auto* each = std::get_if<py::dict>(&source)) limits.sources = sources_from(*each);
   return limits;
@@ -130,17 +133,18 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
           [](const Arm& arm, const std::optional<Array>& lower, const std::optional<Array>& upper,
              const std::optional<Array>& velocity, const std::optional<Array>& effort,
              const std::optional<Array>& acceleration, const std::optional<Array>& jerk,
-             const std::variant<LimitSource, py::dict>& source) {
-            return arm.with_limits(overrides_of(lower, upper, velocity, effort, acceleration, jerk, source));
+             std::optional<double> tool_speed, const std::variant<LimitSource, py::dict>& source) {
+            return arm.with_limits(
+                overrides_of(lower, upper, velocity, effort, acceleration, jerk, tool_speed, source));
           },
           py::kw_only(), py::arg("lower") = py::none(), py::arg("upper") = py::none(),
           py::arg("velocity") = py::none(), py::arg("effort") = py::none(),
           py::arg("acceleration") = py::none(), py::arg("jerk") = py::none(),
-          py::arg("source") = LimitSource::user,
+          py::arg("tool_speed") = py::none(), py::arg("source") = LimitSource::user,
           R"(A copy with other joint limits, each of n values; what is None stays.
 
-lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N).
-Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
+lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N);
+tool_speed, one number, in m/s. Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
 `limit_sources` for each joint. Raises InvalidArgument unless lower < upper and all other limits are > 0.)")
       .def_property_readonly("name", text_of(&Arm::name), "Name of the robot.")
       .def_property_readonly("base", text_of(&Arm::base), "Link in whose frame poses are given.")
@@ -155,9 +159,11 @@ Infinity means that there is none. `source` says where they come from: one Limit
       .def_property_readonly("effort_limit", vector_of(&Arm::effort_limit),
                              "(n,) N m or N; inf where nobody states one.")
       .def_property_readonly("acceleration_limit", vector_of(&Arm::acceleration_limit),
-                             "(n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF cannot.")
+                             "(n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF 1.0 cannot.")
       .def_property_readonly("jerk_limit", vector_of(&Arm::jerk_limit),
                              "(n,) rad/s^3 or m/s^3; inf where nobody states one.")
+      .def_property_readonly("tool_speed_limit", &Arm::tool_speed_limit,
+                             "m/s of the tip; inf where nobody states one.")
       .def_property_readonly("limit_sources", &sources_of,
                              "Where the limits come from: a tuple of n LimitSource for each of position, "
                              "velocity, acceleration, "
@@ -185,6 +191,31 @@ Infinity means that there is none. `source` says where they come from: one Limit
           "manipulability",
           [](const Arm& arm, const Array& q) { return arm.manipulability(to_vector(q, "q")); }, py::arg("q"),
           "sqrt(det(J J^T)), 0 where the arm is singular (Yoshikawa 1985).")
+      .def_property_readonly(
+          "gravity", [](const Arm& arm) { return from_vector(arm.gravity()); },
+          "(3,) m/s^2 in the base frame: 9.81 along -z of the URDF's root.")
+      .def(
+          "inverse_dynamics",
+          [](const Arm& arm, const Array& q, const Array& velocity, const Array& acceleration) {
+            return from_vector(arm.inverse_dynamics(to_vector(q, "q"), to_vector(velocity, "velocity"),
+                                                    to_vector(acceleration, "acceleration")));
+          },
+          py::arg("q"), py::arg("velocity"), py::arg("acceleration"),
+          R"((n,) N m or N for an acceleration (n,) at joints q (n,) that move with velocity (n,), by KDL.
+
+Recursive Newton-Euler under `gravity` with the URDF's inertias and without friction; joints beside the way from base
+to tip stand in the middle of their range. Raises InvalidArgument for other sizes or values that are not finite.)")
+      .def(
+          "gravity_effort",
+          [](const Arm& arm, const Array& q) -> py::array_t<double> {
+            if (q.ndim() == 2) {
+              const RowMatrix rows = to_matrix(q, "q", arm.joint_count());
+              return from_matrix(arm.gravity_effort(rows));
+            }
+            const RowMatrix row = to_vector(q, "q").transpose();
+            return from_vector(arm.gravity_effort(row).row(0).transpose());
+          },
+          py::arg("q"), "N m or N that hold the arm still at joints (n,), or (T, n) at joints (T, n), by KDL.")
       .def(py::pickle(&arm_state, &arm_of_state))
       .def("__repr__", [](const Arm& arm) {
         return "<Arm '" + arm.name() + "': " + std::to_string(arm.joint_count()) + " joints from '" +

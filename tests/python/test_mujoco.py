@@ -29,7 +29,7 @@ def random_states(arm, name, count):
 def test_both_engines_have_the_same_inverse_dynamics_and_kinematics(name):
     arm = arms.find(name)
     with Bullet(arm, 1e-3) as bullet, MuJoCo(arm, 1e-3) as mujoco:
-        assert mujoco.repaired_links == bullet.repaired_links
+        assert mujoco.inertia_repairs == bullet.inertia_repairs
         for position, velocity, acceleration in random_states(arm, name, 20):
             for engine in (bullet, mujoco):
                 engine.reset(position, velocity)

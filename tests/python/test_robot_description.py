@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from dmpcpp import Arm, arms
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot._description import describe, is_physical, nearest_physical
+from dmpcpp.robot._description import describe
+from dmpcpp.robot._inertia import is_physical, nearest_physical
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays

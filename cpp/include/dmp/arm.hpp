@@ -28,7 +28,7 @@ enum class LimitSource {
   assumed    ///< a usual value, in place of one that nobody states
 };
 
-/// Joint acceleration [rad/s^2 or m/s^2] that is assumed where nobody states a limit: a URDF cannot.
+/// Joint acceleration [rad/s^2 or m/s^2] that is assumed where nobody states a limit: a URDF 1.0 cannot.
 inline constexpr double assumed_acceleration = 10.0;
 
 /// The sources of each kind of limit (indexed by LimitKind), one for each joint.
@@ -42,6 +42,7 @@ struct LimitOverrides {
   std::optional<Eigen::VectorXd> effort;                       ///< N m or N, > 0
   std::optional<Eigen::VectorXd> acceleration = std::nullopt;  ///< rad/s^2 or m/s^2, > 0
   std::optional<Eigen::VectorXd> jerk = std::nullopt;          ///< rad/s^3 or m/s^3, > 0
+  std::optional<double> tool_speed = std::nullopt;             ///< m/s, > 0
   LimitSource source = LimitSource::user;  ///< of the values given here; infinite ones are unstated
   LimitSources sources = {};               ///< in place of `source` where joints differ; else empty
 };
@@ -82,6 +83,7 @@ class DMP_EXPORT Arm {
       const;                                    ///< (n) rad/s^2 or m/s^2; assumed_acceleration if unstated
   const Eigen::VectorXd& jerk_limit() const;    ///< (n) rad/s^3 or m/s^3; +infinity where none is stated
   const Eigen::VectorXd& effort_limit() const;  ///< (n) N m or N; +infinity where none is stated
+  double tool_speed_limit() const;              ///< m/s of the tip; +infinity where none is stated
   const std::vector<LimitSource>& limit_sources(LimitKind kind) const;  ///< n, from base to tip
   const std::vector<std::string>& warnings() const;  ///< non-fatal problems of the URDF, one sentence each
   const std::string& urdf() const;                   ///< the text that was read
@@ -97,6 +99,18 @@ class DMP_EXPORT Arm {
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& q) const;
   /// sqrt(det(J J^T)): the volume of reachable twists (Yoshikawa 1985). 0 where the arm is singular.
   double manipulability(const Eigen::VectorXd& q) const;
+
+  /// Gravity in the base frame [m/s^2]: 9.81 along -z of the URDF's root. Joints above the base stand in the
+  /// middle of their range, or at 0 without one.
+  Eigen::Vector3d gravity() const;
+  /// (n) N m or N for `acceleration` (n) at joints q (n) that move with `velocity` (n), by KDL's recursive
+  /// Newton-Euler under gravity(), with the inertias of the URDF and without friction; joints beside the way
+  /// from base to tip stand in the middle of their range. Throws InvalidArgument for other sizes or if not
+  /// finite.
+  Eigen::VectorXd inverse_dynamics(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
+                                   const Eigen::VectorXd& acceleration) const;
+  /// (T x n) N m or N that hold the arm still at each row of q (T x n).
+  RowMatrix gravity_effort(const RowMatrix& q) const;
 
   /// For dmp::kinematics itself.
   const detail::ChainModel& model() const { return *model_; }

@@ -28,9 +28,9 @@ struct TimingLimits {
 DMP_EXPORT JointTrajectory time_optimal(const JointTrajectory& joints, const TimingLimits& limits);
 
 /// The same with the effort that `arm` needs at each sample, by KDL's inverse dynamics (recursive
-/// Newton-Euler with the URDF's inertias; joints beside the way from base to tip stand at 0, friction is
-/// none). `gravity` [m/s^2] in the base frame. Throws InvalidArgument also if the arm cannot even stand
-/// still at a sample.
+/// Newton-Euler with the URDF's inertias; joints beside the way from base to tip stand in the middle of
+/// their range, friction is none). `gravity` [m/s^2] in the base frame. Throws InvalidArgument also if the
+/// arm cannot even stand still at a sample.
 DMP_EXPORT JointTrajectory time_optimal(const Arm& arm, const JointTrajectory& joints,
                                         const TimingLimits& limits,
                                         const Eigen::Vector3d& gravity = {0.0, 0.0, -9.81});

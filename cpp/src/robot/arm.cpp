@@ -7,6 +7,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "base/text_file.hpp"
+#include "robot/arm_dynamics.hpp"
 #include "robot/checks.hpp"
 #include "robot/kdl_forward.hpp"
 #include "robot/urdf_chain.hpp"
@@ -42,6 +43,8 @@ void name_sources(LimitSources& sources, LimitKind kind, const std::optional<Eig
     sources[k][i] = std::isfinite((*limit)[static_cast<Eigen::Index>(i)]) ? given : LimitSource::unstated;
   }
 }
+
+constexpr double earth = 9.81;  // m/s^2
 
 void check_positive(const Eigen::VectorXd& limit, const std::string& name) {
   for (Eigen::Index i = 0; i < limit.size(); ++i)
@@ -86,6 +89,8 @@ Arm Arm::with_limits(const LimitOverrides& limits) const {
   check_positive(model->acceleration_limit, "acceleration");
   check_positive(model->jerk_limit, "jerk");
   check_positive(model->effort_limit, "effort");
+  model->tool_speed_limit = limits.tool_speed.value_or(model->tool_speed_limit);
+  check_positive(Eigen::VectorXd::Constant(1, model->tool_speed_limit), "tool_speed");
   const auto name = [&](LimitKind kind, const std::optional<Eigen::VectorXd>& limit) {
     name_sources(model->limit_sources, kind, limit, limits);
   };
@@ -112,6 +117,7 @@ const std::vector<LimitSource>& Arm::limit_sources(LimitKind kind) const {
   return model_->limit_sources[static_cast<std::size_t>(kind)];
 }
 const Eigen::VectorXd& Arm::effort_limit() const { return model_->effort_limit; }
+double Arm::tool_speed_limit() const { return model_->tool_speed_limit; }
 const std::vector<std::string>& Arm::warnings() const { return model_->warnings; }
 const std::string& Arm::urdf() const { return model_->urdf; }
 const std::string& Arm::folder() const { return model_->folder; }
@@ -153,6 +159,27 @@ double Arm::manipulability(const Eigen::VectorXd& q) const {
   // Fewer than six joints span a volume of their own number of dimensions.
   const double square = j.cols() < 6 ? (j.transpose() * j).determinant() : (j * j.transpose()).determinant();
   return std::sqrt(std::max(square, 0.0));
+}
+
+Eigen::Vector3d Arm::gravity() const { return -earth * model_->up; }
+
+Eigen::VectorXd Arm::inverse_dynamics(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
+                                      const Eigen::VectorXd& acceleration) const {
+  detail::check_joints(q, joint_count(), "q");
+  detail::check_joints(velocity, joint_count(), "velocity");
+  detail::check_joints(acceleration, joint_count(), "acceleration");
+  detail::ArmDynamics dynamics(*model_, gravity());
+  return dynamics.holding(q) + dynamics.moving(q, velocity, acceleration);
+}
+
+RowMatrix Arm::gravity_effort(const RowMatrix& q) const {
+  detail::ArmDynamics dynamics(*model_, gravity());
+  RowMatrix efforts(q.rows(), joint_count());
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    detail::check_joints(q.row(k), joint_count(), "q[" + std::to_string(k) + "]");
+    efforts.row(k) = dynamics.holding(q.row(k)).transpose();
+  }
+  return efforts;
 }
 
 }  // namespace dmp

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <kdl/chain.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct ChainModel {
   std::vector<std::string> joint_names;
   Eigen::VectorXd lower, upper, velocity_limit, acceleration_limit, jerk_limit, effort_limit;
   LimitSources limit_sources;
+  double tool_speed_limit = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< z of the URDF's root, in the base frame
   std::vector<std::string> warnings;
   KDL::Chain chain;
   std::vector<Coupling> couplings;  ///< one for each joint of the chain

@@ -113,8 +113,36 @@ KDL::Frame to_kdl(const Eigen::Isometry3d& frame) {
           KDL::Vector(p.x(), p.y(), p.z())};
 }
 
-// What a link weighs, in its frame, and all that hangs from it but the way on; joints beside the way are at
-// 0.
+// Where a joint beside the way is held: in the middle of its range, as the physics engines hold a finger.
+double held_at(const urdf::Joint& joint) {
+  const bool has_range = joint.limits && joint.limits->lower < joint.limits->upper;
+  return has_range && moves(joint) ? 0.5 * (joint.limits->lower + joint.limits->upper) : 0.0;
+}
+
+// The child's frame in the parent's, with the joint where it is held.
+Eigen::Isometry3d held(const urdf::Joint& joint) {
+  Eigen::Isometry3d frame = to_eigen(joint.parent_to_joint_origin_transform);
+  const double value = held_at(joint);
+  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  if (value == 0.0 || !(axis.norm() > shortest_axis)) return frame;
+  if (joint.type == urdf::Joint::PRISMATIC)
+    frame.translate(value * axis.normalized());
+  else
+    frame.rotate(Eigen::AngleAxisd(value, axis.normalized()));
+  return frame;
+}
+
+// z of the root in the frame of a link.
+Eigen::Vector3d up_in(const urdf::ModelInterface& urdf, urdf::LinkConstSharedPtr link) {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  std::vector<Eigen::Matrix3d> turns;
+  for (; link->parent_joint; link = urdf.getLink(link->parent_joint->parent_link_name))
+    turns.push_back(held(*link->parent_joint).linear());
+  for (auto turn = turns.rbegin(); turn != turns.rend(); ++turn) up = turn->transpose() * up;
+  return up;
+}
+
+// What a link weighs, in its frame, and all that hangs from it but the way on.
 KDL::RigidBodyInertia bodies_of(const urdf::Link& link, const urdf::Joint* way_on) {
   KDL::RigidBodyInertia sum = KDL::RigidBodyInertia::Zero();
   if (link.inertial) {
@@ -124,8 +152,7 @@ KDL::RigidBodyInertia bodies_of(const urdf::Link& link, const urdf::Joint* way_o
   }
   for (std::size_t i = 0; i < link.child_joints.size(); ++i)
     if (link.child_joints[i].get() != way_on)
-      sum = sum + to_kdl(to_eigen(link.child_joints[i]->parent_to_joint_origin_transform)) *
-                      bodies_of(*link.child_links[i], nullptr);
+      sum = sum + to_kdl(held(*link.child_joints[i])) * bodies_of(*link.child_links[i], nullptr);
   return sum;
 }
 
@@ -156,7 +183,7 @@ KDL::Chain chain_of(const UrdfPath& path, const urdf::ModelInterface& urdf) {
 // Collects the free joints with their limits, then lets mimic joints follow them.
 class JointTable {
  public:
-  explicit JointTable(ChainModel& model) : model_(model) {}
+  JointTable(ChainModel& model, const UrdfScan& scan) : model_(model), scan_(scan) {}
 
   void add_free(const urdf::Joint& joint) {
     index_[joint.name] = static_cast<Eigen::Index>(model_.joint_names.size());
@@ -167,6 +194,8 @@ class JointTable {
                                : infinity);
     effort_.push_back(stated ? positive_or_none(joint.limits->effort, joint, "effort", model_.warnings)
                              : infinity);
+    const auto higher = scan_.higher.find(joint.name);
+    higher_.push_back(higher == scan_.higher.end() ? HigherLimits() : higher->second);
   }
 
   Coupling couple(const urdf::Joint& joint) {
@@ -190,12 +219,18 @@ class JointTable {
     }
     model_.velocity_limit = Eigen::Map<const Eigen::VectorXd>(velocity_.data(), n);
     model_.effort_limit = Eigen::Map<const Eigen::VectorXd>(effort_.data(), n);
-    model_.acceleration_limit = Eigen::VectorXd::Constant(n, assumed_acceleration);
-    model_.jerk_limit = Eigen::VectorXd::Constant(n, infinity);
+    model_.acceleration_limit.resize(n);
+    model_.jerk_limit.resize(n);
+    std::vector<LimitSource> of_acceleration;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto [acceleration, jerk] = higher_[static_cast<std::size_t>(i)];
+      model_.acceleration_limit[i] = acceleration > 0.0 ? acceleration : assumed_acceleration;
+      model_.jerk_limit[i] = jerk > 0.0 ? jerk : infinity;
+      of_acceleration.push_back(acceleration > 0.0 ? LimitSource::urdf : LimitSource::assumed);
+    }
     model_.limit_sources = {sources(model_.lower.cwiseAbs().cwiseMin(model_.upper.cwiseAbs())),
-                            sources(model_.velocity_limit),
-                            std::vector<LimitSource>(ranges_.size(), LimitSource::assumed),
-                            sources(model_.jerk_limit), sources(model_.effort_limit)};
+                            sources(model_.velocity_limit), of_acceleration, sources(model_.jerk_limit),
+                            sources(model_.effort_limit)};
   }
 
  private:
@@ -223,13 +258,15 @@ class JointTable {
   }
 
   ChainModel& model_;
+  const UrdfScan& scan_;
   std::map<std::string, Eigen::Index> index_;
   std::vector<Range> ranges_;
   std::vector<double> velocity_, effort_;
+  std::vector<HigherLimits> higher_;
 };
 
-void read_joints(const UrdfPath& path, ChainModel& model) {
-  JointTable table(model);
+void read_joints(const UrdfPath& path, const UrdfScan& scan, ChainModel& model) {
+  JointTable table(model, scan);
   for (const auto& joint : path)
     if (moves(*joint)) {
       check_kind(*joint);
@@ -253,7 +290,7 @@ void warn_of_inertia(const urdf::Link& link, std::vector<std::string>& warnings)
   const Eigen::Vector3d moments = inertia.selfadjointView<Eigen::Lower>().eigenvalues();
   const double tolerance = 1e-9 * moments.cwiseAbs().maxCoeff();
   const bool possible =
-      body.mass > 0.0 && moments[0] >= -tolerance && moments[2] <= moments[0] + moments[1] + tolerance;
+      (body.mass > 0.0 || inertia.isZero(0.0)) && body.mass >= 0.0 && moments[0] >= -tolerance && moments[2] <= moments[0] + moments[1] + tolerance;
   if (!possible)
     warnings.push_back("link '" + link.name +
                        "': no body has this mass and inertia; kinematics ignore them, a simulator may not.");
@@ -264,8 +301,8 @@ void warn_of_what_is_missing(const ParsedUrdf& parsed, const UrdfPath& path,
                              std::vector<std::string>& warnings) {
   if (!parsed.complaints.empty()) warnings.push_back("urdfdom: " + parsed.complaints);
   for (const auto& joint : path) {
-    const auto missing = parsed.missing.find(joint->name);
-    if (missing != parsed.missing.end() && joint->type != urdf::Joint::CONTINUOUS)
+    const auto missing = parsed.scan.missing.find(joint->name);
+    if (missing != parsed.scan.missing.end() && joint->type != urdf::Joint::CONTINUOUS)
       warnings.push_back("joint '" + joint->name + "': its <limit> states no " + missing->second +
                          ", which counts as 0.");
   }
@@ -283,9 +320,10 @@ ChainModel read_urdf(const std::string& text, const std::string& base, const std
   model.tip = tip.empty() ? only_leaf(*base_link) : tip;
   find_link(*urdf, model.tip, "tip");
   const UrdfPath path = path_between(*urdf, model.base, model.tip);
-  read_joints(path, model);
+  read_joints(path, parsed.scan, model);
   warn_of_what_is_missing(parsed, path, model.warnings);
   model.chain = chain_of(path, *urdf);
+  model.up = up_in(*urdf, base_link);
   for (const auto& joint : path) warn_of_inertia(*urdf->getLink(joint->child_link_name), model.warnings);
   model.urdf = text;
   return model;

@@ -58,10 +58,10 @@ std::string listed(std::vector<std::string> names) {
 
 ParsedUrdf parse_urdf(const std::string& text) {
   ParsedUrdf parsed;
-  parsed.missing = scan_urdf(text);
+  parsed.scan = scan_urdf(text);
   CapturedLog log;
   try {
-    parsed.model = urdf::parseURDF(text);
+    parsed.model = urdf::parseURDF(as_version_1_0(text));
   } catch (const std::exception& error) {
     throw InvalidArgument(std::string("urdf: ") + error.what());
   }

@@ -16,7 +16,7 @@ using UrdfPath = std::vector<urdf::JointConstSharedPtr>;
 struct ParsedUrdf {
   urdf::ModelInterfaceSharedPtr model;
   std::string complaints;  ///< of urdfdom, about parts that it left out
-  MissingLimits missing;
+  UrdfScan scan;
 };
 
 /// The links and joints of a URDF. Throws InvalidArgument with the words of urdfdom, which prints nothing.

@@ -1,9 +1,13 @@
 #include "robot/urdf_scan.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <dmp/error.hpp>
+#include <locale>
 #include <set>
+#include <sstream>
 #include <vector>
 
 namespace dmp::detail {
@@ -24,6 +28,14 @@ std::string attribute(const std::string& tag, const std::string& name) {
     return tag.substr(quote + 1, tag.find(tag[quote], quote + 1) - quote - 1);
   }
   return "";
+}
+
+/// The number, or 0 where it is none, not positive or not finite.
+double positive(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  return stream >> value && value > 0.0 && std::isfinite(value) ? value : 0.0;
 }
 
 /// Where the tag at `at` ends: a '>' within quotes is a part of an attribute. npos if nowhere.
@@ -65,7 +77,7 @@ class Scanner {
     }
   }
   const Parents& parents() const { return parents_; }
-  const MissingLimits& missing() const { return missing_; }
+  const UrdfScan& found() const { return found_; }
 
  private:
   void take(const std::string& tag) {
@@ -82,7 +94,7 @@ class Scanner {
 
   void open(const std::string& tag) {
     const std::string kind = tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1);
-    if (kind == "limit") take_limit(attribute(tag, "lower"), attribute(tag, "upper"));
+    if (kind == "limit") take_limit(tag);
     if (kind == "joint") {
       joint_ = attribute(tag, "name");
       above_ = {joint_, ""};
@@ -93,8 +105,13 @@ class Scanner {
     if (!child_.empty() && !above_.link.empty()) add();
   }
 
-  void take_limit(const std::string& lower, const std::string& upper) {
-    if (lower.empty() != upper.empty()) missing_[joint_] = lower.empty() ? "lower" : "upper";
+  void take_limit(const std::string& tag) {
+    const bool lower = !attribute(tag, "lower").empty(), upper = !attribute(tag, "upper").empty();
+    if (lower != upper) found_.missing[joint_] = lower ? "upper" : "lower";
+    const double up = positive(attribute(tag, "acceleration")), down = positive(attribute(tag, "deceleration"));
+    const HigherLimits higher = {up > 0.0 && down > 0.0 ? std::min(up, down) : std::max(up, down),
+                                 positive(attribute(tag, "jerk"))};
+    if (higher.acceleration > 0.0 || higher.jerk > 0.0) found_.higher[joint_] = higher;
   }
 
   void add() {
@@ -107,7 +124,7 @@ class Scanner {
   Parent above_;
   std::string joint_, child_;
   Parents parents_;
-  MissingLimits missing_;
+  UrdfScan found_;
 };
 
 }  // namespace
@@ -134,12 +151,27 @@ void refuse_cycles(const Parents& parents) {
   }
 }
 
-MissingLimits scan_urdf(const std::string& text) {
+UrdfScan scan_urdf(const std::string& text) {
   if (text.size() > largest_text) throw InvalidArgument("urdf: larger than 64 MiB.");
   Scanner scanner;
   scanner.read(text);
   refuse_cycles(scanner.parents());
-  return scanner.missing();
+  return scanner.found();
+}
+
+std::string as_version_1_0(std::string text) {
+  for (std::size_t at = text.find("<robot"); at != std::string::npos; at = text.find("<robot", at + 1)) {
+    const std::size_t end = end_of_tag(text, at);
+    if (end == std::string::npos) return text;
+    const std::string tag = text.substr(at, end - at);
+    const std::string version = attribute(tag, "version");
+    if (version != "1.1" && version != "1.2") continue;
+    for (const char quote : {'"', '\''}) {
+      const std::size_t value = tag.find(quote + version + quote, tag.find("version"));
+      if (value != std::string::npos) text[at + value + 3] = '0';
+    }
+  }
+  return text;
 }
 
 }  // namespace dmp::detail

@@ -1362,6 +1362,17 @@ class Arm:
         """
         Pose of the tip (4, 4) at joints (n,), or poses (T, 4, 4) at joints (T, n), by KDL.
         """
+    def gravity_effort(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        N m or N that hold the arm still at joints (n,), or (T, n) at joints (T, n), by KDL.
+        """
+    def inverse_dynamics(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,) N m or N for an acceleration (n,) at joints q (n,) that move with velocity (n,), by KDL.
+        
+        Recursive Newton-Euler under `gravity` with the URDF's inertias and without friction; joints beside the way from base
+        to tip stand in the middle of their range. Raises InvalidArgument for other sizes or values that are not finite.
+        """
     def jacobian(self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6, n) linear velocity (rows 0-2), then angular velocity of the tip (rows 3-5), in the base frame, by KDL.
@@ -1370,18 +1381,18 @@ class Arm:
         """
         sqrt(det(J J^T)), 0 where the arm is singular (Yoshikawa 1985).
         """
-    def with_limits(self, *, lower: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, upper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, effort: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, jerk: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, source: LimitSource | dict = ...) -> Arm:
+    def with_limits(self, *, lower: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, upper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, effort: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, jerk: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, tool_speed: typing.SupportsFloat | typing.SupportsIndex | None = None, source: LimitSource | dict = ...) -> Arm:
         """
         A copy with other joint limits, each of n values; what is None stays.
         
-        lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N).
-        Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
+        lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N);
+        tool_speed, one number, in m/s. Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
         `limit_sources` for each joint. Raises InvalidArgument unless lower < upper and all other limits are > 0.
         """
     @property
     def acceleration_limit(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF cannot.
+        (n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF 1.0 cannot.
         """
     @property
     def base(self) -> str:
@@ -1397,6 +1408,11 @@ class Arm:
     def folder(self) -> str:
         """
         Folder to which mesh paths are relative; empty if unknown.
+        """
+    @property
+    def gravity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m/s^2 in the base frame: 9.81 along -z of the URDF's root.
         """
     @property
     def jerk_limit(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1432,6 +1448,11 @@ class Arm:
     def tip(self) -> str:
         """
         Link whose pose is given.
+        """
+    @property
+    def tool_speed_limit(self) -> float:
+        """
+        m/s of the tip; inf where nobody states one.
         """
     @property
     def upper(self) -> numpy.typing.NDArray[numpy.float64]:

@@ -15,6 +15,7 @@ import click
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
+from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     type=engines("both"),
     help="Physics engine.",
 )
+@accept_option
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option("--reports", is_flag=True, help="Also write each run's report.html.")
 @click.option(
@@ -67,6 +69,7 @@ def batch(
     basis_count: int | None,
     seed: int,
     simulator: str,
+    accept: tuple[str, ...],
     jobs: int,
     reports: bool,
     out: Path,
@@ -92,6 +95,7 @@ def batch(
         "smooth": smooth,
         "basis_count": basis_count,
         "simulator": simulator,
+        "accept": list(names(accept)),
         "report": reports,
     }
     reading = taken_recording(options)
@@ -146,7 +150,12 @@ def _print(outcomes: list[Outcome], out: Path) -> None:
     table = Table(title="recordings", title_justify="left")
     for title in ("", "recording", "learned mm", "executed mm", "slowdown", "cause"):
         table.add_column(title)
-    marks = {"pass": "[green]pass[/]", "fail": "[bold red]fail[/]", "error": "[bold red]error[/]"}
+    marks = {
+        "pass": "[green]pass[/]",
+        "not judged": "[yellow]not judged[/]",
+        "fail": "[bold red]fail[/]",
+        "error": "[bold red]error[/]",
+    }
     for outcome in outcomes:
         stages = ("demonstration_to_dmp", "ik_to_executed")
         numbers = [f"{1e3 * outcome.errors[s]['position_rmse']:.3g}" if outcome.errors else "-" for s in stages]

@@ -13,6 +13,7 @@ import click
 
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
+from dmpcpp.cli._limit_options import accept_option, names
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 @click.option(
     "--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of motions, changes and noise."
 )
+@accept_option
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option(
     "--out",
@@ -37,7 +39,14 @@ if TYPE_CHECKING:
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
 def generality(
-    count: int, arms: tuple[str, ...], noises: tuple[str, ...], seed: int, jobs: int, out: Path, as_json: bool
+    count: int,
+    arms: tuple[str, ...],
+    noises: tuple[str, ...],
+    seed: int,
+    accept: tuple[str, ...],
+    jobs: int,
+    out: Path,
+    as_json: bool,
 ) -> None:
     """Learn, change, solve and execute random motions with several arms and levels of noise.
 
@@ -53,7 +62,7 @@ def generality(
     refuse_file(out)
     for arm in arms:
         known.load(arm)  # refuses a name or file that is none
-    wanted = library.trials(count, arms or ("panda", "iiwa"), noises or tuple(library.NOISE), seed)
+    wanted = library.trials(count, arms or ("panda", "iiwa"), noises or tuple(library.NOISE), seed, names(accept))
     out.mkdir(parents=True, exist_ok=True)
     with ended_by_sigterm(), _progress(as_json) as progress:
         results = library.run(wanted, out / "trials.jsonl", jobs, progress)

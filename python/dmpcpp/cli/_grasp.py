@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli._group import FAILED
-from dmpcpp.cli._tables import note_style
+from dmpcpp.cli._tables import mark, note_style, number
+from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -178,6 +179,7 @@ def _print(run: Grasp, video: Path | None) -> None:
     from rich.console import Console
 
     from dmpcpp.grasp import CAVEAT
+    from dmpcpp.robot import assumptions
 
     console = Console(highlight=False)
     for line in run.plan.history:
@@ -189,10 +191,8 @@ def _print(run: Grasp, video: Path | None) -> None:
     begins = ", ".join(f"{name} {time:.2f} s" for name, time in run.log.phases.items())
     console.print(f"{begins}; the reach takes {plan.slowdown:.2f} x the recorded duration", soft_wrap=True)
     console.print(_table(run))
-    failed = ", ".join(check.name for check in run.failed)
-    word, style = ("held up", "bold green") if run.ok else ("not verified", "bold red")
-    console.print(word, style=style, end=": ")
-    console.print(f"failed: {failed}" if failed else f"{run.log.simulator}, computed torque. {CAVEAT}.", soft_wrap=True)
+    how = f"{run.log.simulator}, computed torque. {CAVEAT}."
+    print_verdict(console, run, how, assumed=assumptions(run.arm), words=("held up", "not verified"))
     if video:
         console.print(f"written to {video}", soft_wrap=True, markup=False)
 
@@ -208,7 +208,6 @@ def _table(run: Grasp) -> Table:
     for check in run.checks:
         scale, unit = shown.get(check.unit, (1.0, check.unit))
         where = f"{check.time:.2f} s " if check.time is not None else ""
-        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
-        numbers = (f"{scale * check.value:.3g}", f"{scale * check.limit:.3g}")
-        table.add_row(mark, check.name, *numbers, unit, escape(where + check.detail))
+        numbers = (number(check.value, scale), number(check.limit, scale))
+        table.add_row(mark(check), check.name, *numbers, unit, escape(where + check.detail))
     return table

@@ -14,6 +14,7 @@ import click
 from dmpcpp.cli._choices import engines, exports
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
+from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
@@ -25,6 +26,7 @@ from dmpcpp.cli._options import (
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import checks_table, note_style, way
+from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import MissingDependency
 
 if TYPE_CHECKING:
@@ -74,6 +76,7 @@ def _run_options(
                 type=exports(),
                 help="Also write a robot program if verified: joints.yaml, joints_bag, joints.script. Repeatable.",
             ),
+            accept_option,
             click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
@@ -132,8 +135,8 @@ def imitate(
 
     preparation, smooth = taken_preparation(options)
     placing = taken_placing(options)
-    names = ("out", "seed", "basis_count", "simulator", "formats", "no_report", "as_json")
-    run = {name: options.pop(name) for name in names}
+    taken = ("out", "seed", "basis_count", "simulator", "formats", "accept", "no_report", "as_json")
+    run = {name: options.pop(name) for name in taken}
     recording = recordings.load(file, **taken_recording(options))
     recording, *others = motion.prepare_all(recording, preparation)
     _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, others=others, **placing, **run)
@@ -148,6 +151,7 @@ def _carry_out(
     basis_count: int | None,
     simulator: str,
     formats: tuple[str, ...],
+    accept: tuple[str, ...],
     no_report: bool,
     as_json: bool,
     **how: Any,
@@ -155,10 +159,18 @@ def _carry_out(
     from dmpcpp import export, imitation
 
     refuse_file(out)
+    accepted = names(accept)
     export.chosen(formats, arm)  # what cannot be written is refused before anything runs
     with _progress(as_json) as progress:
         run = imitation.imitate(
-            recording, arm, seed=seed, basis_count=basis_count, simulator=simulator, progress=progress, **how
+            recording,
+            arm,
+            seed=seed,
+            basis_count=basis_count,
+            simulator=simulator,
+            accept=accepted,
+            progress=progress,
+            **how,
         )
     sent = imitation.write(run, out, formats)
     save_config(out / "config.toml")
@@ -216,6 +228,8 @@ def _print(run: Imitation, out: Path) -> None:
     from rich.console import Console
     from rich.table import Table
 
+    from dmpcpp.robot import assumptions
+
     console = Console(highlight=False)
     for line in run.recording.history:
         console.print(line, style=note_style(line), soft_wrap=True, markup=False)
@@ -230,10 +244,7 @@ def _print(run: Imitation, out: Path) -> None:
     )
     console.print(_errors_table(run, Table))
     console.print(checks_table(run.checks))
-    console.print(
-        "verified" if run.ok else "not verified", style="bold green" if run.ok else "bold red", markup=False, end=": "
-    )
-    console.print(_reason(run), soft_wrap=True, markup=False)
+    print_verdict(console, run, _how(run), assumed=assumptions(run.log.arm), advice=_advice(run))
     caution = "" if run.ok else "; its joints.csv is not for a robot"
     console.print(f"written to {out}/{caution}", soft_wrap=True, markup=False)
 
@@ -245,16 +256,10 @@ _ADVICE = {
 }
 
 
-def _reason(run: Imitation) -> str:
-    """What was verified, or which checks failed and what to do about the likely cause."""
-    how = _how(run)
-    failed = {check.name: check for check in run.failed}
-    if not failed:
-        return how
-    first = next((name for name in _ADVICE if name in failed), next(iter(failed)))
-    names = [first, *(name for name in failed if name != first)]
-    numbers = ", ".join(f"{n} {failed[n].value:.3g} (limit {failed[n].limit:.3g} {failed[n].unit})" for n in names)
-    return f"{len(failed)} of {len(run.checks)} checks failed: {numbers}. {_ADVICE.get(first, '')}".rstrip() + f" {how}"
+def _advice(run: Imitation) -> str:
+    """What to do about the likely cause of a failure."""
+    failed = {check.name for check in run.failed}
+    return next((advice for name, advice in _ADVICE.items() if name in failed), "")
 
 
 def _how(run: Imitation) -> str:

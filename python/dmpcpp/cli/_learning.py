@@ -13,6 +13,7 @@ import click
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
+from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
@@ -23,6 +24,7 @@ from dmpcpp.cli._options import (
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import checks_table, note_style, way
+from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -172,12 +174,13 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     type=engines("none"),
     help="Physics engine that checks the path for contacts.",
 )
+@accept_option
 @click.option(
     "--out",
     default="dmpcpp-plan",
     show_default=True,
     type=click.Path(file_okay=False, path_type=Path),
-    help="Folder for plan.npz, summary.json, config.toml and, where every check held, joints.csv.",
+    help="Folder for plan.npz, summary.json, config.toml and, of a plan that is feasible, joints.csv.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
 def plan(
@@ -190,13 +193,14 @@ def plan(
     exact_duration: bool,
     from_joints: str | None,
     simulator: str,
+    accept: tuple[str, ...],
     out: Path,
     as_json: bool,
 ) -> None:
     """Plan the motion in MODEL, a model file, to a goal and duration, and write joints for an arm.
 
     Checked are inverse kinematics, joint limits and contacts of the arm with itself and the floor; `dmpcpp imitate`
-    executes under physics as well. Where a check fails there is no joints.csv.
+    executes under physics as well. Where a check fails or is not judged there is no joints.csv.
 
     Example: dmpcpp plan reach.json --arm panda --goal 0.5,0.1,0.4 --duration 3 --out plan
     """
@@ -213,6 +217,7 @@ def plan(
         start=_numbers("--from-joints", from_joints) if from_joints else None,
         slow_down=not exact_duration,
         simulator=simulation.ENGINES.get(simulator),
+        accept=names(accept),
     )
     planning.write(found, out)
     save_config(out / "config.toml")
@@ -227,15 +232,13 @@ def plan(
 def _print_plan(found: JointPlan, out: Path) -> None:
     from rich.console import Console
 
+    from dmpcpp.robot import assumptions
+
     console = Console(highlight=False)
     console.print(checks_table(found.checks))
-    console.print("planned" if found.ok else "not feasible", style="bold green" if found.ok else "bold red", end="; ")
-    console.print(
-        f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted; written to {out}/", markup=False
-    )
-    if not found.ok:
-        failed = ", ".join(check.name for check in found.failed)
-        console.print(f"no joints.csv: nothing for a robot while checks fail: {failed}", markup=False, soft_wrap=True)
+    duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted"
+    how = f"{duration}; written to {out}/" + ("" if found.ok else ", without joints.csv: this plan is not for a robot")
+    print_verdict(console, found, how, assumed=assumptions(found.arm), words=("planned", "not feasible"))
 
 
 def _goal(text: str | None, model: Any) -> Array | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -33,11 +34,27 @@ def checks_table(checks: Iterable[Check]) -> Table:
     table = Table(title="checks", title_justify="left")
     for title in ("", "check", "value", "limit", "unit", "where"):
         side = "right" if title in ("value", "limit") else "left"
-        table.add_column(title, justify=side, no_wrap=title == "check", overflow="fold")  # a joint's name stays whole
+        table.add_column(
+            title, justify=side, no_wrap=title in ("", "check"), overflow="fold"
+        )  # a joint's name stays whole
     for check in checks:
         where = f"{check.time:.2f} s " if check.time is not None else ""
-        mark = "[green]ok[/]" if check.ok else "[bold red]FAIL[/]"
+        numbers = (number(check.value), number(check.limit))
         table.add_row(
-            mark, check.name, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit, escape(where + check.detail)
+            mark(check),
+            check.name,
+            *numbers,
+            check.unit,
+            escape(where + (check.detail if check.judged else "see below")),
         )
     return table
+
+
+def mark(check: Check) -> str:
+    """The result of a check in a table."""
+    return {"holds": "[green]ok[/]", "fails": "[bold red]FAIL[/]", "not judged": "[yellow]not judged[/]"}[check.result]
+
+
+def number(value: float, scale: float = 1.0) -> str:
+    """A figure of a table; a dash where there is none."""
+    return f"{scale * value:.3g}" if math.isfinite(value) else "-"

@@ -13,8 +13,10 @@ import click
 
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE, arm_options
 from dmpcpp.cli._tables import checks_table
+from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     metavar="NAME=VALUE",
     help="Override a tolerance [m, rad, ratios], e.g. position_max=0.005; repeatable.",
 )
+@accept_option
 @click.option(
     "--simulator",
     default=DEFAULT_ENGINE,
@@ -58,6 +61,7 @@ def verify(
     angle_unit: str,
     low_pass: float,
     stated: tuple[str, ...],
+    accept: tuple[str, ...],
     simulator: str,
     as_json: bool,
 ) -> None:
@@ -82,6 +86,7 @@ def verify(
         tolerances=tolerances,
         cutoff=low_pass,
         simulator=simulation.ENGINES.get(simulator),
+        accept=names(accept),
     )
     if as_json:
         click.echo(json.dumps(result.summary(), indent=2, allow_nan=False))
@@ -112,18 +117,16 @@ def _tolerances(stated: tuple[str, ...]) -> Tolerances:
 def _print(result: Verification) -> None:
     from rich.console import Console
 
+    from dmpcpp.robot import assumptions
+
     console = Console(highlight=False)
     for line in result.notes:
         console.print(line, style="dim", soft_wrap=True, markup=False)
     console.print(f"the plan began at {1e3 * result.lag:.3f} ms of the log's clock (estimated lag)")
     console.print(_measures_table(result))
     console.print(checks_table(result.checks))
-    failed = [check.name for check in result.failed]
-    verdict = "[bold red]not verified[/]" if failed else "[bold green]verified[/]"
-    console.print(verdict, end=": ")
-    what = f"{len(failed)} of {len(result.checks)} checks failed: {', '.join(failed)}. " if failed else ""
     how = f"{result.log.arm.name}, {result.log.simulator}, {result.log.mode} ({result.log.caveat})."
-    console.print(what + how, soft_wrap=True, markup=False)
+    print_verdict(console, result, how, assumed=assumptions(result.log.arm))
 
 
 def _measures_table(result: Verification) -> Table:

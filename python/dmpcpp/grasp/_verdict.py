@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
-from dmpcpp.checks import Check
+from dmpcpp.checks import Check, Series
 from dmpcpp.grasp._execution import GraspLog
 from dmpcpp.metrics import position_errors
+from dmpcpp.robot import judged_by_limits, unjudged
 from dmpcpp.simulation import GraspWorld
 
 __all__ = ["GraspTolerances", "judge", "rise", "slip", "tilt"]
@@ -73,9 +74,9 @@ def _arm(log: GraspLog, arm: Arm, allowed: GraspTolerances) -> Iterator[Check]:
     worst = int(np.argmax(errors))
     off = float(errors[worst])
     yield Check("tracking", off <= allowed.tracking, off, allowed.tracking, "m", float(log.time[worst]))
-    joint = int(np.argmax(log.torque_ratio))
-    share = float(log.torque_ratio[joint])
-    yield Check("torque_ratio", share <= 1.0, share, 1.0, "1", None, arm.joint_names[joint])
+    used = Series(np.zeros(1), log.torque_ratio[None], tuple(arm.joint_names))
+    held = judged_by_limits(used, unjudged(arm, "effort"), lambda s: s.at_most("torque_ratio", 1.0, "1"))
+    yield replace(held, time=None)  # of the whole run the largest alone is kept
     yield Check("torque_clipped", log.clipped_steps == 0, log.clipped_steps, 0, "steps")
 
 

@@ -30,13 +30,13 @@ def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = 
 
     The summary comes last: a folder that has one has all, and `report.write` makes its report. What robots are sent,
     by the names in `export.FORMATS`, is
-    written of a run whose every check held, from rest to rest as it was simulated and within the arm's limits; what an
+    written of a verified run, from rest to rest as it was simulated and within the arm's limits; what an
     earlier run left of it is removed.
 
     Returns
     -------
     tuple of str
-        The names of the files for robots; none where a check failed.
+        The names of the files for robots; none of a run that is not verified.
 
     Raises
     ------
@@ -124,6 +124,5 @@ def _picture(run: Imitation, curves: tuple[plot.ErrorCurve, ...], path: Path) ->
             executed=run.log.tool_pose[run.log.motion],
             errors=curves,
             title=f"{run.recording.source} ({run.recording.body}) on {run.log.arm.name}",
-            note=f"{'all checks held' if run.ok else 'checks failed'}; {run.slowdown:.2f} x the recorded duration; "
-            f"{run.log.simulator}, {run.log.mode}",
+            note=f"{run.verdict_word}; {run.slowdown:.2f} x the recorded duration; {run.log.simulator}, {run.log.mode}",
         )

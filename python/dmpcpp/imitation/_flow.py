@@ -9,7 +9,7 @@ Every stage is a value that can be looked at on its own; each step here is one c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -17,7 +17,7 @@ from typing import Any
 from dmpcpp import metrics, motion, simulation
 from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._engines import default_engine
-from dmpcpp.checks import Check, Checked
+from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.learning import Evidence, Lesson, evidence, learn, reproduction, reproduction_checks, teach
 from dmpcpp.metrics import StageErrors
@@ -25,6 +25,7 @@ from dmpcpp.motion import Noise
 from dmpcpp.planning import Engine, Placement, clear_of_itself, solve
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
+from dmpcpp.robot import assumptions, limits_summary, require_holdable
 from dmpcpp.simulation import ExecutionLog
 
 __all__ = ["STAGES", "Imitation", "PlacementPolicy", "Progress", "clear_of_itself", "imitate"]
@@ -64,6 +65,8 @@ class Imitation(Checked):
         What the recording shows of noise, as it stands in the robot's base frame, and whether it was taken out.
     second_log : ExecutionLog or None
         The same joints in the second engine, where both were asked for.
+    accepted : tuple of str
+        Checks that a person takes although they were not judged.
     """
 
     recording: Recording
@@ -77,6 +80,7 @@ class Imitation(Checked):
     checks: tuple[Check, ...]
     evidence: Evidence
     second_log: ExecutionLog | None = None
+    accepted: tuple[str, ...] = ()
 
     @property
     def noise(self) -> Noise:
@@ -107,6 +111,8 @@ class Imitation(Checked):
             "second_simulator": self.second_log.simulator if self.second_log else None,
             "mode": self.log.mode,
             "caveat": self.log.caveat,
+            "limits": limits_summary(self.log.arm),
+            "assumed": list(assumptions(self.log.arm)),
         }
 
 
@@ -121,6 +127,7 @@ def imitate(
     basis_count: int | None = None,
     others: Sequence[Recording] = (),
     simulator: str | None = None,
+    accept: Iterable[str] = (),
     progress: Progress | None = None,
 ) -> Imitation:
     """Carry out a recorded motion on a simulated arm and say how well that went.
@@ -147,19 +154,24 @@ def imitate(
         The physics engine; unless given "bullet", or "mujoco" where that alone is installed. With both, Bullet is
         the one that everything is measured in, MuJoCo executes the same joints, and checks say how far the two are
         apart.
+    accept : iterable of str
+        Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
+        by. One that is judged and fails is never accepted.
     progress : callable, optional
         See `Progress`.
 
     Raises
     ------
     InvalidArgument
-        The recording cannot be learned or is no motion of a hand (`motion.plausible`), no placement carries it, or
-        there is no such simulator.
+        The recording cannot be learned or is no motion of a hand (`motion.plausible`), no placement carries it, the
+        arm's motors cannot hold it up, or there is no such simulator or check.
     MissingDependency
         The simulator is not installed.
     """
     tell = progress or (lambda stage, done: None)
     engines = _engines(simulator or default_engine())
+    accepted = accepted_names(accept)
+    require_holdable(arm)
     tell("place", 0.0)
     recording = motion.plausible(motion.continuous(recording))
     if place is True:
@@ -175,6 +187,7 @@ def imitate(
     tell("solve", 0.0)
     solution = solve(model, arm, start=placement.start if placement else None, engine=engines[0])
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
+    require_holdable(arm, joints.position)
     tell("execute", 0.0)
     path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
     logs = _execute(arm, joints, engines, lambda done: tell("execute", done))
@@ -188,7 +201,7 @@ def imitate(
     checks = (*reproduced, *path_checks, *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
-    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second)
+    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second, accepted)
 
 
 def _together(

@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -21,10 +21,17 @@ from dmpcpp import export
 from dmpcpp._atomic import write_text
 from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._typing import Array
-from dmpcpp.checks import Check, Checked
+from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._joints import clear_of_itself, solve
-from dmpcpp.robot import LimitUse, require_within_reach
+from dmpcpp.robot import (
+    LimitUse,
+    assumptions,
+    dimension_checks,
+    limits_summary,
+    require_holdable,
+    require_within_reach,
+)
 from dmpcpp.simulation import Simulator, Tolerances, inverse_kinematics_checks, path_checks
 
 __all__ = ["JointPlan", "plan", "write"]
@@ -43,6 +50,8 @@ class JointPlan(Checked):
     slowdown : float
         Its duration over the one that was wanted, 1 where the limits allow that.
     checks : tuple of Check
+    accepted : tuple of str
+        Checks that a person takes although they were not judged.
     """
 
     arm: Arm
@@ -50,6 +59,7 @@ class JointPlan(Checked):
     joints: JointTrajectory
     slowdown: float
     checks: tuple[Check, ...]
+    accepted: tuple[str, ...] = ()
 
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
@@ -62,6 +72,8 @@ class JointPlan(Checked):
             "slowdown": self.slowdown,
             "samples": len(self.joints.time),
             "goal": self.motion.pose[-1].tolist(),
+            "limits": limits_summary(self.arm),
+            "assumed": list(assumptions(self.arm)),
         }
 
 
@@ -74,6 +86,7 @@ def plan(
     start: ArrayLike | None = None,
     slow_down: bool = True,
     simulator: Callable[..., Simulator] | None = None,
+    accept: Iterable[str] = (),
 ) -> JointPlan:
     """Lead a model to a goal and find the joints for it.
 
@@ -92,16 +105,21 @@ def plan(
         Take longer where velocity or acceleration limits ask for it; otherwise a check says so.
     simulator : callable, optional
         In whose geometry the path is looked at for contacts with the arm itself and the floor.
+    accept : iterable of str
+        Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
+        by.
 
     Raises
     ------
     InvalidArgument
-        A model that is not one of poses, or what `PoseDmp.rollout` and `InverseKinematics.follow` refuse.
+        A model that is not one of poses, an arm that its motors cannot hold up on the way, or what `PoseDmp.rollout`
+        and `InverseKinematics.follow` refuse.
     """
     if not isinstance(model, PoseDmp):
         raise InvalidArgument(
             f"model: a {type(model).__name__}, expected a PoseDmp: an arm's tip has position and rotation."
         )
+    accepted = accepted_names(accept)
     wanted = model.duration if duration is None else duration
     if not 0.0 < wanted < np.inf:
         raise InvalidArgument(f"duration: {wanted}, expected a positive number of seconds.")
@@ -113,11 +131,12 @@ def plan(
         model, arm, goal=goal, duration=wanted, stand=_stand(start, arm), accept=accept, slow_down=slow_down
     )
     joints = solution.joints
+    require_holdable(arm, joints.position)
     use = LimitUse.of(arm, joints.time, joints.position, joints.velocity, joints.acceleration)
-    checks = (*inverse_kinematics_checks(joints, Tolerances()), *use.checks())
+    checks = (*inverse_kinematics_checks(joints, Tolerances()), *use.checks(), *dimension_checks(arm))
     if simulator is not None:
         checks = (*checks, *path_checks(arm, joints, simulator=simulator))
-    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks)
+    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted)
 
 
 def _stand(start: ArrayLike | None, arm: Arm) -> Array | None:
@@ -134,7 +153,7 @@ def _stand(start: ArrayLike | None, arm: Arm) -> Array | None:
 def write(found: JointPlan, folder: str | PathLike[str]) -> None:
     """Write plan.npz, joints.csv and summary.json, each whole or not at all; the summary comes last.
 
-    joints.csv is what a robot may be sent, so it is written of a plan whose every check held; of any other, one that an
+    joints.csv is what a robot may be sent, so it is written of a plan that is ok; of any other, one that an
     earlier plan left is removed.
 
     Raises

@@ -3,19 +3,42 @@
 Users import ``dmpcpp.arms`` and ``dmpcpp.urdf_check``; the rest is for the rooms above.
 """
 
-from dmpcpp.robot._description import RobotDescription, describe, find_mesh, is_physical, links_of
+from dmpcpp.robot._description import RobotDescription, describe, find_mesh, links_of
+from dmpcpp.robot._dimensions import dimension_checks, dimension_doubts
 from dmpcpp.robot._disturbance import Disturbance
-from dmpcpp.robot._limit_use import LimitUse
+from dmpcpp.robot._gravity import Overload, overloads, random_postures, require_holdable
+from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
+from dmpcpp.robot._limit_sources import assumptions, limits_summary
+from dmpcpp.robot._limit_use import LimitUse, judged_by_limits
+from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why
 from dmpcpp.robot._reach import farthest_reach, require_within_reach
 
 __all__ = [
     "Disturbance",
+    "InertiaRepair",
+    "LimitDoubt",
     "LimitUse",
+    "Overload",
     "RobotDescription",
+    "assumptions",
     "describe",
+    "dimension_checks",
+    "dimension_doubts",
     "farthest_reach",
     "find_mesh",
     "is_physical",
+    "joint_types",
+    "judged_by_limits",
+    "limit_doubts",
+    "limits_summary",
     "links_of",
+    "moment_change",
+    "nearest_physical",
+    "overloads",
+    "random_postures",
+    "repaired_links",
+    "require_holdable",
     "require_within_reach",
+    "unjudged",
+    "why",
 ]

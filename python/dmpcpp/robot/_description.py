@@ -6,6 +6,7 @@ The same text goes to every engine, so that none repairs (or silently drops) any
 from __future__ import annotations
 
 import copy
+import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from itertools import combinations, product
@@ -18,11 +19,12 @@ from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot._convex_pieces import convex_pieces
 from dmpcpp.robot._disturbance import Disturbance
+from dmpcpp.robot._engine_urdf import inertia_of, write_inertia, written
+from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
 from dmpcpp.robot._urdf_changes import add_payload, freeze, normalize_axes, scale_masses
 
 _WITH_MOTORS = ("revolute", "continuous", "prismatic")
 """Joints that a motor can hold; no engine here moves a planar one, and a floating one would fall off."""
-_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 @dataclass(frozen=True)
@@ -33,8 +35,9 @@ class RobotDescription:
     ----------
     text : str
         The URDF.
-    repaired_links : tuple of str
-        Links whose inertia was not physical and was replaced by the nearest one that is.
+    repairs : tuple of InertiaRepair
+        Of the links that the arm moves: those whose inertia was not physical and was replaced by the nearest one that
+        is, and bodies that state none.
     rigid_groups : tuple of frozenset of str
         The links of the robot, grouped: the links of a group never move against one another.
     neighbours : frozenset of frozenset of str
@@ -42,9 +45,14 @@ class RobotDescription:
     """
 
     text: str
-    repaired_links: tuple[str, ...]
+    repairs: tuple[InertiaRepair, ...]
     rigid_groups: tuple[frozenset[str], ...]
     neighbours: frozenset[frozenset[str]]
+
+    @property
+    def repaired_links(self) -> tuple[str, ...]:
+        """Links whose inertia was replaced."""
+        return repaired_links(self.repairs)
 
 
 def describe(
@@ -84,12 +92,14 @@ def describe(
     links = robot.findall("link")
     for link in links:
         _prepare_shapes(link, arm.folder, folder, visuals)
-    repaired = tuple(link.get("name", "") for link in links if _repair_inertia(link))
+    moved = links_beyond(robot, arm.joint_names[0])
+    found = [repair for link in links if (repair := _repair_inertia(link)) is not None]
+    repairs = tuple(repair for repair in found if repair.link in moved)
     _change(robot, arm, disturbance or Disturbance())
     _refuse_massless(robot, arm)
     freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
     groups = _rigid_groups(robot)
-    return RobotDescription(ET.tostring(robot, encoding="unicode"), repaired, groups, _neighbours(robot, groups))
+    return RobotDescription(written(robot), repairs, groups, _neighbours(robot, groups))
 
 
 def links_of(arm: Arm) -> frozenset[str]:
@@ -97,9 +107,20 @@ def links_of(arm: Arm) -> frozenset[str]:
     return frozenset(link.get("name", "") for link in ET.fromstring(arm.urdf).findall("link"))
 
 
+def links_beyond(robot: ET.Element, joint_name: str) -> frozenset[str]:
+    """Names of the links that a joint moves."""
+    below: dict[str, list[str]] = {}
+    found = []
+    for joint in robot.findall("joint"):
+        parent, child = _ends(joint)
+        below.setdefault(parent, []).append(child)
+        found += [child] if joint.get("name") == joint_name else []
+    for link in found:
+        found += below.get(link, [])
+    return frozenset(found)
+
+
 def _change(robot: ET.Element, arm: Arm, disturbance: Disturbance) -> None:
-    for dynamics in robot.iterfind("joint/dynamics"):
-        dynamics.attrib.pop("friction", None)
     if disturbance.mass_error:
         scale_masses(robot, disturbance.mass_factors(link.get("name", "") for link in robot.findall("link")))
     if disturbance.payload:
@@ -118,37 +139,6 @@ def _refuse_folded_joints(robot: ET.Element, arm: Arm) -> None:
                 "engines cannot couple them. Choose a base and a tip without it."
             )
         link = _ends(joint)[0]
-
-
-def is_physical(inertia: Array, tolerance: float = 1e-9) -> bool:
-    """Whether a rigid body can have this inertia (3, 3) [kg m^2] about its centre of mass.
-
-    It can when the inertia is positive definite and its principal moments hold the triangle inequality
-    a + b >= c: when the second moment of mass ``tr(I)/2 1 - I`` has no negative eigenvalue (Wensing, Kim and
-    Slotine, "Linear Matrix Inequalities for Physically-Consistent Inertial Parameter Identification", RA-L
-    2018).
-    """
-    scale = float(np.trace(inertia))
-    if not scale > 0.0:
-        return False
-    moments = np.linalg.eigvalsh(inertia)
-    return bool(moments[0] > 0.0 and np.linalg.eigvalsh(_second_moment(inertia))[0] >= -tolerance * scale)
-
-
-def nearest_physical(inertia: Array) -> Array:
-    """The physical inertia (3, 3) nearest to ``inertia``: its second moment without negative eigenvalues.
-
-    Nearest in the Frobenius norm of the second moment. A floor of 1e-4 of the largest eigenvalue keeps the
-    result off the edge, where engines differ in what they accept.
-    """
-    values, vectors = np.linalg.eigh(_second_moment(0.5 * (inertia + inertia.T)))
-    values = np.maximum(values, 1e-4 * max(values[-1], 1e-9))
-    second_moment = vectors @ np.diag(values) @ vectors.T
-    return np.asarray(np.trace(second_moment) * np.eye(3) - second_moment)
-
-
-def _second_moment(inertia: Array) -> Array:
-    return np.asarray(0.5 * np.trace(inertia) * np.eye(3) - inertia)
 
 
 def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool) -> None:
@@ -178,9 +168,7 @@ def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: P
 def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
     """A joint that carries no mass has undefined dynamics; the last joint carries the least."""
     last = arm.joint_names[-1]
-    beyond = {_ends(joint)[1] for joint in robot.findall("joint") if joint.get("name") == last}
-    for _ in robot.findall("link"):
-        beyond |= {_ends(joint)[1] for joint in robot.findall("joint") if _ends(joint)[0] in beyond}
+    beyond = links_beyond(robot, last)
     masses = [mass for link in robot.findall("link") if link.get("name") in beyond for mass in link.iter("mass")]
     if not any(float(mass.get("value", 0.0)) > 0.0 for mass in masses):
         raise InvalidArgument(
@@ -189,48 +177,49 @@ def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
         )
 
 
-def _repair_inertia(link: ET.Element) -> bool:
-    """Replace an inertia that is not physical; a link without mass and inertia is only a frame and stays."""
+def _repair_inertia(link: ET.Element) -> InertiaRepair | None:
+    """Replace an inertia that is not physical; a link without mass and inertia is only a frame and stays.
+
+    A link that has a shape to collide with is a body, and no body is without mass.
+    """
+    name, is_body = link.get("name", ""), link.find("collision") is not None
     inertial = link.find("inertial")
     if inertial is None:
         _make_massless(link)
-        return False
+        return InertiaRepair(name, math.inf) if is_body else None
     element = inertial.find("inertia")
     mass = float(getattr(inertial.find("mass"), "attrib", {}).get("value", 0.0))
     if not 0.0 <= mass < np.inf:
         raise InvalidArgument(f"arm.urdf: link '{link.get('name')}': <mass>: {mass} kg, expected 0 or more.")
-    inertia = _read_inertia(element, link.get("name", ""))
-    if is_physical(inertia) or (mass == 0.0 and not inertia.any()):
-        return False
+    inertia = _read_inertia(element, name)
+    if mass == 0.0 and not inertia.any():
+        return InertiaRepair(name, math.inf) if is_body else None
+    if is_physical(inertia):
+        return None
     if element is None:
         element = ET.SubElement(inertial, "inertia")
-    _write_inertia(element, nearest_physical(inertia))
-    return True
+    nearest = nearest_physical(inertia)
+    write_inertia(element, nearest)
+    return InertiaRepair(name, moment_change(inertia, nearest))
 
 
 def _make_massless(link: ET.Element) -> None:
     """Say in the URDF what a missing <inertial> means: no mass. (Bullet would take 1 kg.)"""
     inertial = ET.SubElement(link, "inertial")
     ET.SubElement(inertial, "mass", value="0")
-    _write_inertia(ET.SubElement(inertial, "inertia"), np.zeros((3, 3)))
+    write_inertia(ET.SubElement(inertial, "inertia"), np.zeros((3, 3)))
 
 
 def _read_inertia(element: ET.Element | None, link: str) -> Array:
     if element is None:
         return np.zeros((3, 3))
     try:
-        xx, xy, xz, yy, yz, zz = (float(element.get(name, 0.0)) for name in _COMPONENTS)
+        inertia = inertia_of(element)
     except ValueError as error:
         raise InvalidArgument(f"arm.urdf: link '{link}': <inertia>: {error}. Give six numbers.") from None
-    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if not np.isfinite(inertia).all():
         raise InvalidArgument(f"arm.urdf: link '{link}': <inertia> is not finite. Give six numbers.")
     return inertia
-
-
-def _write_inertia(element: ET.Element, inertia: Array) -> None:
-    for name, (row, column) in zip(_COMPONENTS, zip(*np.triu_indices(3), strict=True), strict=True):
-        element.set(name, repr(float(inertia[row, column])))
 
 
 def find_mesh(filename: str, folder: str, link: str = "") -> Path:

@@ -16,7 +16,11 @@ import numpy as np
 
 from dmpcpp._core import Arm
 from dmpcpp.errors import FileError, InvalidArgument
-from dmpcpp.robot._description import describe, find_mesh, is_physical
+from dmpcpp.robot._description import describe, find_mesh
+from dmpcpp.robot._dimensions import dimension_doubts
+from dmpcpp.robot._gravity import overloads, random_postures
+from dmpcpp.robot._inertia import is_physical, moment_change, nearest_physical
+from dmpcpp.robot._plausible_limits import limit_doubts
 
 __all__ = ["Defect", "UrdfReport", "check"]
 
@@ -238,9 +242,11 @@ def _inertia(inertial: ET.Element, where: str, mass: float) -> Iterator[Defect]:
     xx, xy, xz, yy, yz, zz = (number[0] for number in numbers if number)
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if (mass > 0.0 or inertia.any()) and not is_physical(inertia):
+        change = moment_change(inertia, nearest_physical(inertia))
+        size = f", which differs by {100.0 * change:.2g} %" if math.isfinite(change) else ""
         yield Defect(
             where,
-            "no rigid body can have its inertia; the physics takes the nearest that one can",
+            f"no rigid body can have its inertia; the physics takes the nearest that one can{size}",
             "Compute it anew from the CAD model.",
             False,
         )
@@ -284,12 +290,30 @@ def _loaded(path: Path, base: str, tip: str) -> tuple[Arm | None, list[Defect]]:
     found = [
         Defect("loading", warning.rstrip("."), "Fix it, or ignore it deliberately.", False) for warning in arm.warnings
     ]
+    found += _implausible(arm)
     try:
         with tempfile.TemporaryDirectory() as folder:
             describe(arm, Path(folder))
     except (InvalidArgument, ValueError) as error:
         found.append(Defect("physics", str(error).rstrip("."), "A run is not possible until it is fixed.", True))
     return arm, found
+
+
+def _implausible(arm: Arm) -> Iterator[Defect]:
+    """What stands in place of real figures: by these no run can be judged."""
+    for doubt in limit_doubts(arm):
+        if not doubt.missing:  # what is missing is reported of every joint of the robot
+            yield Defect(f"joint '{doubt.joint}'", doubt.what, doubt.to_do, False)
+    for what, to_do in dimension_doubts(arm):
+        yield Defect("the arm", what, to_do, False)
+    for overload in overloads(arm, random_postures(arm)):
+        what, _, to_do = overload.sentence.removeprefix(f"joint '{overload.joint}': ").partition(". ")
+        yield Defect(
+            f"joint '{overload.joint}'",
+            f"{what} (of 100 postures {100 * overload.share:.0f} cannot be held)",
+            to_do,
+            False,
+        )
 
 
 def _numbers(text: str) -> list[float] | None:

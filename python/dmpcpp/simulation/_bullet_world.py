@@ -63,7 +63,7 @@ class BulletWorld:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(self.arm, Path(folder), visuals=visuals, disturbance=disturbance)
             self._body = self._load(description.text, Path(folder, "arm.urdf"))
-        self.repaired_links = description.repaired_links
+        self.inertia_repairs = description.repairs
         self._find_joints()
         self._switch_off_damping_and_motors()
         self._add_friction(disturbance)

@@ -121,7 +121,7 @@ def _log(
         rate=1.0 / plant.time_step,
         motion=reference.motion,
         planned_steps=len(reference.time),
-        repaired_links=plant.repaired_links,
+        inertia_repairs=plant.inertia_repairs,
         time=reference.time[done],
         desired_position=reference.position[done],
         desired_velocity=reference.velocity[done],

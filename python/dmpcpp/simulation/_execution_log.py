@@ -8,7 +8,7 @@ from functools import cached_property
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.metrics import StageErrors, compare
-from dmpcpp.robot import Disturbance
+from dmpcpp.robot import Disturbance, InertiaRepair, repaired_links
 from dmpcpp.simulation._simulator import Contact
 from dmpcpp.simulation._verdict import Verdict, judge
 
@@ -57,8 +57,8 @@ class ExecutionLog:
         The steps of the trajectory itself, without lead-in, lead-out and settling.
     planned_steps : int
         Steps that were wanted; fewer were done if the state left the finite numbers.
-    repaired_links : tuple of str
-        Links whose inertia was not physical and was replaced.
+    inertia_repairs : tuple of InertiaRepair
+        Links whose inertia was not physical and was replaced, and bodies that state none.
     time : (N,) s
         0 at the first sample of the trajectory; the lead-in is negative.
     desired_position, position : (N, n) rad
@@ -81,7 +81,7 @@ class ExecutionLog:
     rate: float
     motion: slice
     planned_steps: int
-    repaired_links: tuple[str, ...]
+    inertia_repairs: tuple[InertiaRepair, ...]
     time: Array
     desired_position: Array
     position: Array
@@ -93,6 +93,11 @@ class ExecutionLog:
     tool_pose: Array
     contacts: tuple[ContactEvent, ...]
     disturbance: Disturbance = field(default_factory=Disturbance)
+
+    @property
+    def repaired_links(self) -> tuple[str, ...]:
+        """Links whose inertia was replaced."""
+        return repaired_links(self.inertia_repairs)
 
     @property
     def caveat(self) -> str:

@@ -76,7 +76,7 @@ class MuJoCo:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(arm, Path(folder), disturbance=disturbance, only_the_arm_moves=True)
             self._model = self._compile(description, floor, obstacles)
-        self.repaired_links = description.repaired_links
+        self.inertia_repairs = description.repairs
         self._damping = self._model.dof_damping.copy()
         self._model.dof_damping[:] += disturbance.damping
         self._model.dof_frictionloss[:] = disturbance.friction

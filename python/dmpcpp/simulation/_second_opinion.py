@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dmpcpp._typing import Array
 from dmpcpp.checks import Check
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.metrics import angle_errors, position_errors
+from dmpcpp.robot import limit_doubts
 from dmpcpp.simulation._execution_log import ExecutionLog
 
 
@@ -32,7 +34,8 @@ def agreement(
     tuple of Check
         ``engines_position_max``, ``engines_angle_max``: the largest distance and angle of the two tool poses at
         equal times; ``engines_torque_rms``: root mean square of the difference of the torques over the effort
-        limit, of the joint where it is largest; ``engines_verdicts``: how many checks hold in only one of them.
+        limit, or without one over the largest torque of the run, of the joint where it is largest;
+        ``engines_verdicts``: how many checks hold in only one of them.
 
     Raises
     ------
@@ -54,10 +57,19 @@ def agreement(
         worst, limit = int(np.argmax(errors)), getattr(tolerances, name)
         value = float(errors[worst])
         checks.append(Check(f"engines_{name}", value <= limit, value, limit, unit, float(log.time[worst]), who))
-    share = np.sqrt(np.mean(((log.torque - other.torque) / log.arm.effort_limit) ** 2, axis=0))
+    share = np.sqrt(np.mean(((log.torque - other.torque) / _scale(log, other)) ** 2, axis=0))
     joint, value = log.arm.joint_names[int(np.argmax(share))], float(share.max())
     limit = tolerances.torque_rms
     checks.append(Check("engines_torque_rms", value <= limit, value, limit, "1", None, joint))
     differing = {check.name for check in log.verdict.failed} ^ {check.name for check in other.verdict.failed}
     count = len(differing)
     return (*checks, Check("engines_verdicts", count == 0, count, 0, "checks", None, ", ".join(sorted(differing))))
+
+
+def _scale(log: ExecutionLog, other: ExecutionLog) -> Array:
+    """What a difference of torques is measured by (n,) [Nm]: the effort limit where there is one."""
+    limit = log.arm.effort_limit
+    doubtful = {doubt.joint for doubt in limit_doubts(log.arm) if doubt.kind == "effort"}
+    known = np.array([name not in doubtful for name in log.arm.joint_names])
+    largest = max(float(np.abs(run.torque).max(initial=0.0)) for run in (log, other))
+    return np.where(known, limit, largest or 1.0)

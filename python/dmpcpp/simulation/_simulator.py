@@ -11,6 +11,7 @@ import numpy as np
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot import InertiaRepair
 
 FLOOR = "floor"
 GRAVITY = -9.81
@@ -78,8 +79,8 @@ class Simulator(Protocol):
     arm: Arm
     time_step: float
     """Duration of one step [s]."""
-    repaired_links: tuple[str, ...]
-    """Links whose inertia is not one of a rigid body and was replaced (see ``robot_description``)."""
+    inertia_repairs: tuple[InertiaRepair, ...]
+    """Links whose inertia is not one of a rigid body and was replaced, and bodies that state none."""
 
     def reset(self, position: Array, velocity: Array) -> None:
         """Put the arm into a state: (n,) rad and (n,) rad/s."""

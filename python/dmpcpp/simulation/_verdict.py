@@ -12,7 +12,7 @@ import numpy as np
 from dmpcpp._core import JointTrajectory
 from dmpcpp.checks import Check, Checked, Series
 from dmpcpp.metrics import angle_errors, position_errors
-from dmpcpp.robot import LimitUse, links_of
+from dmpcpp.robot import LimitUse, dimension_checks, judged_by_limits, links_of
 from dmpcpp.simulation._simulator import kind_of
 
 if TYPE_CHECKING:
@@ -21,7 +21,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Limits of the checks: m, rad, ratios to the arm's limits, counts."""
+    """Limits of the checks: m, rad, ratios to the arm's limits, counts.
+
+    ``inertia_change`` is how far an inertia that no body can have may be from the nearest possible one (the largest
+    change of a principal moment over the largest moment); so many links as ``repaired_inertias`` may be beyond it.
+    """
 
     position_rmse: float = 0.5e-3
     position_max: float = 2e-3
@@ -37,6 +41,7 @@ class Tolerances:
     self_collision: int = 0
     floor_contact: int = 0
     object_contact: int = 0
+    inertia_change: float = 0.05
     repaired_inertias: int = 0
     kinematics_mismatch: float = 1e-6
 
@@ -105,7 +110,8 @@ def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     use = LimitUse.of(arm, log.time, log.position, log.velocity, acceleration)
     yield from use.checks(tolerances.joint_margin, tolerances.velocity_ratio, tolerances.acceleration_ratio)
     torque = Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, use.names)
-    yield torque.at_most("torque_ratio", tolerances.torque_ratio, "1")
+    limit = tolerances.torque_ratio
+    yield judged_by_limits(torque, use.doubts_of("effort"), lambda s: s.at_most("torque_ratio", limit, "1"))
     clipped = (np.abs(log.torque) >= arm.effort_limit).any(axis=1)
     when = float(log.time[np.argmax(clipped)]) if clipped.any() else None
     yield Check("torque_clipped", not clipped.any(), int(clipped.sum()), 0, "steps", when)
@@ -137,11 +143,24 @@ def inverse_kinematics_checks(joints: JointTrajectory, tolerances: Tolerances) -
         yield series.at_most(f"ik_{name}_residual", getattr(tolerances, f"ik_{name}"), unit)
 
 
+def _inertia(log: ExecutionLog, tolerances: Tolerances) -> Check:
+    """A repair within the tolerance is a note; beyond it nobody knows the inertia."""
+    repairs, limit = log.inertia_repairs, tolerances.inertia_change
+    beyond = [repair for repair in repairs if repair.change > limit]
+    if len(beyond) > tolerances.repaired_inertias:
+        links = ", ".join(map(str, beyond))
+        why = f"no body can have the inertia of {links}, which the nearest possible replaces. Correct it in the URDF."
+        if any(math.isinf(repair.change) for repair in beyond):
+            why = f"no mass or inertia is stated of {links}. State them in the URDF, or the --density of its bodies."
+        return Check.not_judged("inertia", "1", why)
+    most = max((repair.change for repair in repairs if math.isfinite(repair.change)), default=0.0)
+    detail = f"replaced by the nearest possible: {', '.join(map(str, repairs))}" if repairs else ""
+    return Check("inertia", True, most, limit, "1", None, detail)
+
+
 def _model(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     """The arm that was simulated is the arm that was planned for."""
-    links = log.repaired_links
-    detail = f"not physical, replaced: {', '.join(links)}" if links else ""
-    limit = tolerances.repaired_inertias
-    yield Check("inertia", len(links) <= limit, len(links), limit, "links", None, detail)
+    yield _inertia(log, tolerances)
     mismatch = position_errors(log.arm.forward_kinematics(log.position), log.tool_pose)
     yield Series(log.time, mismatch).at_most("kinematics_mismatch", tolerances.kinematics_mismatch, "m")
+    yield from dimension_checks(log.arm)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,10 +13,11 @@ from scipy.signal import butter, sosfiltfilt
 from dmpcpp import metrics
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
-from dmpcpp.checks import Check, Checked
+from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.comparison import MotionComparison, compare_motions
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export import JointSamples
+from dmpcpp.robot import assumptions, limits_summary, unjudged
 from dmpcpp.simulation import ExecutionLog, Simulator, Tolerances, judge, path_checks, states_at
 from dmpcpp.verification._joint_log import JointLog
 from dmpcpp.verification._lag import estimate_lag
@@ -27,6 +28,7 @@ _GAP = 0.1  # s; a longer silence of the log hides too much
 _SAMPLES = 4  # of the log within the motion, at least
 _TURN = 2.0 * np.pi  # rad (m); no joint is that far beyond its limits: it is another unit
 _NOT_RECORDED = ("finite", "self_collision", "floor_contact", "object_contact", "inertia", "kinematics_mismatch")
+_NO_TORQUE = "the log holds no torques: they are not judged"
 _OF_TORQUE = ("torque_ratio", "torque_clipped")
 
 
@@ -43,19 +45,22 @@ class Verification(Checked):
     comparison : MotionComparison
         Of the tool, against the forward kinematics of the plan; the lag is already taken out.
     velocity_margin, torque_margin : float or None
-        ``metrics.margin`` to the arm's limits; None without torques in the log.
+        ``metrics.margin`` to the arm's limits; None where the limits are unknown, or without torques in the log.
     checks : tuple of Check
     notes : tuple of str
         What reading the log changed.
+    accepted : tuple of str
+        Checks that a person takes although they were not judged.
     """
 
     lag: float
     log: ExecutionLog
     comparison: MotionComparison
-    velocity_margin: float
+    velocity_margin: float | None
     torque_margin: float | None
     checks: tuple[Check, ...]
     notes: tuple[str, ...] = ()
+    accepted: tuple[str, ...] = ()
 
     def summary(self) -> dict[str, Any]:
         """For JSON; m, rad, s."""
@@ -71,6 +76,8 @@ class Verification(Checked):
             "comparison": self.comparison.to_dict(),
             "velocity_margin": self.velocity_margin,
             "torque_margin": self.torque_margin,
+            "limits": limits_summary(self.log.arm),
+            "assumed": list(assumptions(self.log.arm)),
         }
 
 
@@ -82,6 +89,7 @@ def verify(
     tolerances: Tolerances | None = None,
     cutoff: float = 20.0,
     simulator: Callable[[Arm, float], Simulator] | None = None,
+    accept: Iterable[str] = (),
 ) -> Verification:
     """Hold the log of a real arm against the plan that it was given.
 
@@ -102,6 +110,9 @@ def verify(
         Of the low-pass [Hz], > 0; without effect from 0.45 of the log's rate.
     simulator : callable, optional
         Engine in whose geometry the executed joints are looked at for contacts; None: not looked at.
+    accept : iterable of str
+        Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
+        by.
 
     Raises
     ------
@@ -110,6 +121,7 @@ def verify(
         does not move.
     """
     _refuse(arm, joints, cutoff)
+    accepted = accepted_names(accept)
     of_arm = log.of(arm.joint_names)
     _refuse_another_unit(arm, of_arm)
     lag = estimate_lag(joints, of_arm)
@@ -124,11 +136,16 @@ def verify(
         lag=lag,
         log=run,
         comparison=compare_motions(run.desired_tool_pose[during], run.tool_pose[during], run.rate),
-        velocity_margin=metrics.margin(run.velocity, arm.velocity_limit),
-        torque_margin=metrics.margin(run.torque, arm.effort_limit) if of_arm.torque is not None else None,
+        velocity_margin=_margin(arm, "velocity", run.velocity, arm.velocity_limit),
+        torque_margin=None if of_arm.torque is None else _margin(arm, "effort", run.torque, arm.effort_limit),
         checks=checks,
-        notes=of_arm.notes,
+        notes=of_arm.notes if of_arm.torque is not None else (*of_arm.notes, _NO_TORQUE),
+        accepted=accepted,
     )
+
+
+def _margin(arm: Arm, kind: str, values: Array, limit: Array) -> float | None:
+    return None if unjudged(arm, kind) else metrics.margin(values, limit)
 
 
 def _refuse(arm: Arm, joints: JointTrajectory | JointSamples, cutoff: float) -> None:
@@ -169,7 +186,7 @@ def _on_the_plans_clock(
         rate=1.0 / step,
         motion=slice(int(inside[0]), int(inside[-1]) + 1),
         planned_steps=len(time),
-        repaired_links=(),
+        inertia_repairs=(),
         time=time,
         desired_position=desired_position,
         desired_velocity=desired_velocity,

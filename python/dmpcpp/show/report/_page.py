@@ -10,7 +10,8 @@ from dmpcpp.show.report._run_folder import RunFolder
 __all__ = ["html"]
 
 _STYLE = """
-:root { color-scheme: light; --ink: #1d2329; --faint: #5d6873; --line: #dde2e7; --good: #00664a; --bad: #a62b00; }
+:root { color-scheme: light; --ink: #1d2329; --faint: #5d6873; --line: #dde2e7; --good: #00664a; --bad: #a62b00;
+  --doubt: #7a5600; }
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 70rem; padding: 1.5rem 2rem 4rem; color: var(--ink); background: #fff;
   font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
@@ -21,6 +22,7 @@ p, ul, ol { margin: .5rem 0; max-width: 52rem; }
   overflow-wrap: anywhere; }
 .good { color: var(--good); border-color: var(--good); background: #eef8f4; }
 .bad { color: var(--bad); border-color: var(--bad); background: #fdf1ec; }
+.doubtful { color: var(--doubt); border-color: var(--doubt); background: #fdf7e6; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .87rem; margin: .7rem 0; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .2rem .8rem .2rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
@@ -29,6 +31,7 @@ th { color: var(--faint); font-weight: 600; }
 table.numbers th:not(:first-child), table.numbers td:not(:first-child), table.checks td:nth-child(3),
 table.checks td:nth-child(4), table.checks th:nth-child(3), table.checks th:nth-child(4) { text-align: right; }
 tr.failed td { color: var(--bad); font-weight: 600; }
+tr.unjudged td { color: var(--doubt); font-weight: 600; }
 figure { margin: 0; }
 figure svg { width: 100%; height: auto; display: block; }
 figcaption { color: var(--faint); font-size: .87rem; }

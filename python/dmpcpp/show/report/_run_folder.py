@@ -9,10 +9,11 @@ from typing import Any
 
 from dmpcpp import export
 from dmpcpp._core import PoseDmp, load
+from dmpcpp.checks import SUMMARY_VERSION
 from dmpcpp.errors import FileError, InvalidArgument
 from dmpcpp.show.report._record import RunRecord, read_record
 
-__all__ = ["RunFolder", "read_run"]
+__all__ = ["RunFolder", "read_run", "result_of"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +31,15 @@ class RunFolder:
     def ok(self) -> bool:
         """Whether the run was verified."""
         return bool(self.summary["verdict"] == "pass")
+
+    def named(self, result: str) -> list[str]:
+        """Return the names of the checks with a result: "holds", "fails", "not judged"."""
+        return list(dict.fromkeys(check["name"] for check in self.summary["checks"] if result_of(check) == result))
+
+
+def result_of(check: dict[str, Any]) -> str:
+    """Return the result of a check of a summary; those of 0.1 were all judged."""
+    return "holds" if check["ok"] else "not judged" if check.get("result") == "not judged" else "fails"
 
 
 def read_run(folder: Path) -> RunFolder:
@@ -72,4 +82,7 @@ def _summary(path: Path) -> dict[str, Any]:
     missing = sorted(needed - set(summary)) if isinstance(summary, dict) else sorted(needed)
     if missing:
         raise InvalidArgument(f"{path}: has no {', '.join(missing)}; expected the summary of an imitation.")
+    version = summary.get("version", 1)
+    if not isinstance(version, int) or version > SUMMARY_VERSION:
+        raise InvalidArgument(f"{path}: version {version}, expected {SUMMARY_VERSION} or less. Install a newer dmpcpp.")
     return dict(summary)

@@ -9,7 +9,7 @@ from typing import Any
 
 from dmpcpp import _core
 from dmpcpp.show.report import _figures as figures
-from dmpcpp.show.report._run_folder import RunFolder
+from dmpcpp.show.report._run_folder import RunFolder, result_of
 from dmpcpp.show.scene import replay_page
 
 __all__ = ["fitting", "history", "pictures", "repeat", "scene", "stages", "verdict"]
@@ -52,17 +52,41 @@ _CAPTIONS = (
 
 def verdict(run: RunFolder) -> str:
     """Say what came of it, with every check."""
-    summary, failed = run.summary, [check["name"] for check in run.summary["checks"] if not check["ok"]]
-    word, kind = ("Verified", "good") if run.ok else ("Not verified", "bad")
-    count = len(summary["checks"])
-    said = f"all {count} checks held" if not failed else f"{len(failed)} of {count} checks failed: {', '.join(failed)}"
+    summary = run.summary
+    word, kind = _word(run)
+    said = _said(run)
     how = f"{summary['arm']}, {summary['simulator']}, {summary['mode']} ({summary['caveat']})."
     rows = sorted(map(_check_row, summary["checks"]), key=lambda row: row[0] == "ok")
     table = _table(("", "check", "value", "limit", "unit", "where"), rows, "checks")
     return (
         f'<section id="verdict"><p class="verdict {kind}"><b>{word}</b>: {escape(said)}.</p>'
-        f"<p>{escape(_figures_of(summary))}</p><p>{escape(how)}</p>{table}</section>"
+        f"<p>{escape(_figures_of(summary))}</p><p>{escape(how)}</p>{_caveats(summary)}{table}</section>"
     )
+
+
+def _word(run: RunFolder) -> tuple[str, str]:
+    """The verdict and the colour it is printed in."""
+    if not run.ok:
+        return "Not verified", "bad"
+    left = run.named("not judged")
+    return (f"Verified, not judged: {', '.join(left)}", "doubtful") if left else ("Verified", "good")
+
+
+def _said(run: RunFolder) -> str:
+    count, failed, unjudged = len(run.summary["checks"]), run.named("fails"), run.named("not judged")
+    if not failed and not unjudged:
+        return f"all {count} checks held"
+    parts = [f"{len(failed)} of {count} checks failed: {', '.join(failed)}"] if failed else []
+    parts += [f"not judged: {', '.join(unjudged)}"] if unjudged and not run.ok else []
+    return "; ".join(parts) or f"{count - len(unjudged)} of {count} checks held, the others were accepted unjudged"
+
+
+def _caveats(summary: dict[str, Any]) -> str:
+    """What was not judged, and which limits were assumed."""
+    unjudged = [check for check in summary["checks"] if result_of(check) == "not judged"]
+    lines = [f"Not judged: {check['name']}: {check['detail']}" for check in unjudged]
+    lines += [f"Assumed: {what}." for what in summary.get("assumed", ())]
+    return f"<ul>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</ul>" if lines else ""
 
 
 def _figures_of(summary: dict[str, Any]) -> str:
@@ -75,7 +99,7 @@ def _figures_of(summary: dict[str, Any]) -> str:
 
 def _check_row(check: dict[str, Any]) -> tuple[str, ...]:
     when = "" if check.get("time") is None else f"{check['time']:.2f} s "
-    mark = "ok" if check["ok"] else "FAIL"
+    mark = {"holds": "ok", "fails": "FAIL"}.get(result_of(check), "not judged")
     return mark, check["name"], _number(check["value"]), _number(check["limit"]), check["unit"], when + check["detail"]
 
 
@@ -181,7 +205,7 @@ def _table(titles: Sequence[str], rows: Iterable[Sequence[str]], kind: str) -> s
 
 
 def _row_kind(row: Sequence[str]) -> str:
-    return "failed" if row[0] == "FAIL" else "held"
+    return {"FAIL": "failed", "not judged": "unjudged"}.get(row[0], "held")
 
 
 def _number(value: float | None) -> str:

@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._core import Arm, PoseDmp
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot import unjudged
 from dmpcpp.show.scene import ShownArm, draw_path, look_at, quaternion, serving
 from dmpcpp.show.view._session import Session, Shown
 
@@ -149,19 +150,28 @@ class Page:
 def described(shown: Shown, arm: Arm) -> str:
     """Return in Markdown whether the motion is feasible, and what each joint uses of its limits."""
     report = shown.joints.report
+    unknown = {
+        kind: {doubt.joint for doubt in unjudged(arm, kind)} for kind in ("position", "velocity", "acceleration")
+    }
     missed = len(shown.time) - report.solved
     rows = "\n".join(
-        f"| {name} | {100 * v:.0f} % | {100 * a:.0f} % | {np.degrees(m):.0f}° |"
+        f"| {name} | {_share(v, name in unknown['velocity'])} | {_share(a, name in unknown['acceleration'])} "
+        f"| {np.degrees(m):.0f}° |"
         for name, v, a, m in zip(
             arm.joint_names, shown.velocity_share, shown.acceleration_share, shown.margin, strict=True
         )
     )
-    said = "**feasible**" if shown.feasible else "**not feasible**"
+    left = ", ".join(kind for kind, joints in unknown.items() if joints)
+    said = (f"**feasible, {left} not judged**" if left else "**feasible**") if shown.feasible else "**not feasible**"
     why = f"; {missed} of {len(shown.time)} poses are missed" if missed else ""
     return (
         f"{said}{why}; the limits allow {shown.shortest:.2f} s or more\n\n"
         f"| joint | velocity | acceleration | to its limit |\n|---|---|---|---|\n{rows}"
     )
+
+
+def _share(value: float, is_unknown: bool) -> str:
+    return "-" if is_unknown else f"{100 * value:.0f} %"
 
 
 def _pose_of(handle: Any) -> Array:

@@ -18,18 +18,19 @@ __all__ = ["summary", "write_tables"]
 
 _STAGES = ("demonstration_to_dmp", "dmp_to_ik", "ik_to_executed")
 _MEASURES = ("position_rmse", "position_max", "angle_rmse", "angle_max")
+_COUNTED = {"not judged": "not judged", "fail": "failed", "error": "could not be carried out"}
 _STYLE = """body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; margin: 2rem; color: #1d2329; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; }
 th, td { text-align: left; padding: .25rem .9rem .25rem 0; border-bottom: 1px solid #dde2e7; vertical-align: top; }
-.pass { color: #00664a; } .fail, .error { color: #a62b00; font-weight: 600; }"""
+.pass { color: #00664a; } .not.judged { color: #8a6100; } .fail, .error { color: #a62b00; font-weight: 600; }"""
 
 
 def summary(outcomes: Sequence[Outcome]) -> dict[str, Any]:
-    """Return how many passed, failed and could not be carried out, and each outcome; m, rad, s."""
+    """Return how many passed, were not judged, failed and could not be carried out, and each outcome; m, rad, s."""
     verdicts = [outcome.verdict for outcome in outcomes]
     return {
         "verdict": "pass" if all(outcome.ok for outcome in outcomes) else "fail",
-        **{name: verdicts.count(name) for name in ("pass", "fail", "error")},
+        **{name: verdicts.count(name) for name in ("pass", "not judged", "fail", "error")},
         "outcomes": [
             {
                 "file": o.file,
@@ -80,9 +81,8 @@ def _html(outcomes: Sequence[Outcome], folder: Path) -> str:
     titles = ("recording", "arm", "verdict", "learned [mm]", "[deg]", "executed [mm]", "[deg]", "slowdown", "cause")
     head = "".join(f"<th>{title}</th>" for title in titles)
     rows = "\n".join(_row(outcome, folder) for outcome in outcomes)
-    said = (
-        f"{found['pass']} of {len(outcomes)} passed, {found['fail']} failed, {found['error']} could not be carried out."
-    )
+    counts = ", ".join(f"{found[name]} {word}" for name, word in _COUNTED.items())
+    said = f"{found['pass']} of {len(outcomes)} passed, {counts}."
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><link rel="icon" href="data:,">'
         f"<title>Batch</title><style>{_STYLE}</style></head><body><h1>{said}</h1>\n"

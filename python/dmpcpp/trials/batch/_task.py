@@ -60,9 +60,10 @@ class Outcome:
     ----------
     file, folder, arm : str
     verdict : str
-        "pass", "fail" (a check did not hold) or "error" (it could not be carried out).
+        "pass", "fail" (a check did not hold), "not judged" (there was no limit for one) or "error" (it could not be
+        carried out).
     cause : str
-        The checks that failed, or the error; empty for a pass.
+        The checks that failed or were not judged, or the error; empty for a pass.
     errors : dict
         Position and angle errors of every stage [m, rad], as in summary.json; empty after an error.
     slowdown, seconds : float
@@ -83,7 +84,7 @@ class Outcome:
 
     @property
     def ok(self) -> bool:
-        """Whether every check held."""
+        """Whether it was verified."""
         return self.verdict == "pass"
 
 
@@ -168,10 +169,10 @@ def _imitated(task: Task) -> dict[str, Any]:
     imitation.write(run, task.folder)
     if wants_report:
         report.write(task.folder)
-    failed = [check.name for check in run.failed]
+    unjudged = [f"not judged: {check.name}: {check.detail}" for check in run.open]
     return {
-        "verdict": "pass" if run.ok else "fail",
-        "cause": ", ".join(failed),
+        "verdict": run.judged()["verdict"],
+        "cause": ", ".join([*(check.name for check in run.failed), *unjudged]),
         "errors": {name: errors.to_dict() for name, errors in run.stages.items()},
         "slowdown": run.slowdown,
     }

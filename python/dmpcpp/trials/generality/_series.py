@@ -10,6 +10,7 @@ from itertools import product
 from os import PathLike
 from pathlib import Path
 
+from dmpcpp.checks import accepted_names
 from dmpcpp.errors import FileError, InvalidArgument
 from dmpcpp.trials._processes import workers
 from dmpcpp.trials.generality._motions import NOISE
@@ -18,13 +19,22 @@ from dmpcpp.trials.generality._trial import Result, Trial, attempt
 __all__ = ["kept", "run", "trials"]
 
 
-def trials(count: int, arms: Iterable[str], noises: Iterable[str] = tuple(NOISE), seed: int = 0) -> list[Trial]:
+def trials(
+    count: int,
+    arms: Iterable[str],
+    noises: Iterable[str] = tuple(NOISE),
+    seed: int = 0,
+    accept: Iterable[str] = (),
+) -> list[Trial]:
     """Return the trials of `count` motions with every arm at every level of noise, motion by motion.
+
+    `accept` names the checks that may stay unjudged, see `imitation.imitate`.
 
     Raises
     ------
     InvalidArgument
-        A count below 1, a seed below 0, no arm, or a level of noise that is none of NOISE.
+        A count below 1, a seed below 0, no arm, a level of noise that is none of NOISE, or a check that is always
+        judged.
     """
     arms, noises = tuple(dict.fromkeys(arms)), tuple(dict.fromkeys(noises))
     for name, value, least in (("count", count, 1), ("seed", seed, 0)):
@@ -35,7 +45,8 @@ def trials(count: int, arms: Iterable[str], noises: Iterable[str] = tuple(NOISE)
         raise InvalidArgument(f"noises: {unknown or 'none'}, expected some of {', '.join(NOISE)}.")
     if not arms:
         raise InvalidArgument("arms: none, expected at least one.")
-    return [Trial(arm, noise, seed, index) for index, arm, noise in product(range(count), arms, noises)]
+    accepted = accepted_names(accept)
+    return [Trial(arm, noise, seed, index, accepted) for index, arm, noise in product(range(count), arms, noises)]
 
 
 def run(

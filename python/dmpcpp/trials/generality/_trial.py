@@ -26,17 +26,20 @@ _POSITION, _ANGLE = 1e-3, np.radians(0.5)  # m, rad RMSE to the motion without n
 _GOAL_MISS = 1e-3  # m, between the end of the changed motion and its goal
 _RATE = 100.0  # Hz of the changed motion
 _PLACES = 3  # searched at most
-_OF_THE_ARM = frozenset({"inertia"})  # checks of the arm's file, not of the motion
 
 
 @dataclass(frozen=True)
 class Trial:
-    """Which trial: motion `index` of `seed` for an arm (see `arms.load`) at a level of NOISE."""
+    """Which trial: motion `index` of `seed` for an arm (see `arms.load`) at a level of NOISE.
+
+    `accept` names the checks that may stay unjudged, see `imitation.imitate`.
+    """
 
     arm: str
     noise: str
     seed: int
     index: int
+    accept: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,8 @@ class Result:
     @staticmethod
     def from_dict(values: dict[str, Any]) -> Result:
         """From what `to_dict` gave. Raises KeyError or TypeError for anything else."""
-        return Result(**{**values, "trial": Trial(**values["trial"])})
+        trial = dict(values["trial"])
+        return Result(**{**values, "trial": Trial(**{**trial, "accept": tuple(trial.get("accept", ()))})})
 
 
 def attempt(trial: Trial) -> Result:
@@ -148,11 +152,11 @@ def _executed(
     """The last run, how many places were searched, and what failed in the last of them."""
     drawn = drawn_placement(changed, arm, random).apply_to(changed)
     if _follows(drawn, arm):
-        run, cause = _imitated(drawn, arm, place=False)
+        run, cause = _imitated(drawn, arm, place=False, accept=trial.accept)
         if not cause:
             return run, 0, ""
     for place in range(_PLACES):
-        run, cause = _imitated(changed, arm, seed=trial.seed + place)
+        run, cause = _imitated(changed, arm, seed=trial.seed + place, accept=trial.accept)
         if run is None or not cause:
             break
     return run, place + 1, cause
@@ -174,7 +178,7 @@ def _imitated(recording: Recording, arm: Arm, **options: Any) -> tuple[Imitation
 
 
 def _failed(run: Imitation) -> str:
-    failed = [check for check in run.failed if check.name not in _OF_THE_ARM]
-    return "; ".join(
-        f"{check.name} {check.value:.3g} (limit {check.limit:.3g}) {check.detail}".strip() for check in failed
-    )
+    failed = [
+        f"{check.name} {check.value:.3g} (limit {check.limit:.3g}) {check.detail}".strip() for check in run.failed
+    ]
+    return "; ".join([*failed, *(f"not judged: {check.name}: {check.detail}" for check in run.open)])
