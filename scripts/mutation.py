@@ -23,14 +23,18 @@ TREE = ROOT / "build" / "mutation"
 BUILD = TREE / "build" / "release"
 LEAST = 0.8
 
-# Source under cpp/src: the tests that should notice a fault in it, the nearest first.
+# Source under cpp/src (a .cpp unless its name says otherwise): the tests that should notice a fault, the nearest first.
 TESTS = {
     "geometry/so3": ["so3", "refusals", "orientation_dmp", "so3_properties"],
     "primitive/basis": ["basis", "forcing", "refusals", "dmp", "dmp_properties"],
     "primitive/forcing": ["forcing", "refusals", "dmp", "fit_report", "dmp_properties"],
     "primitive/forcing_fit": ["forcing", "refusals", "dmp", "batch", "fit_report"],
     "primitive/normal_equations": ["forcing", "dmp", "fit_report", "batch"],
-    "primitive/dmp": ["dmp", "refusals", "run_refusals", "batch", "dmp_properties"],
+    "primitive/vector_system": ["dmp", "coupling", "run_refusals", "dmp_properties"],
+    "primitive/rotation_system": ["orientation_dmp", "coupling", "run_refusals", "dmp_properties"],
+    "primitive/runner.hpp": ["dmp", "coupling", "run_refusals", "pose_dmp", "realtime"],
+    "primitive/fitting.hpp": ["dmp", "learning", "average", "pose_gripper_dmp", "orientation_dmp", "refusals"],
+    "primitive/primitive_bodies.hpp": ["dmp", "learning", "refusals", "run_refusals", "pose_gripper_dmp"],
 }
 
 SWAPS = {
@@ -70,9 +74,14 @@ def changed(line: str) -> list[str]:
     return found + ([";"] if STATEMENT.match(line) else [])
 
 
+def file_of(source: str) -> str:
+    """Return the path below cpp/src."""
+    return source if source.endswith(".hpp") else f"{source}.cpp"
+
+
 def faults(source: str) -> list[Fault]:
     """Return every fault of a source that is known here."""
-    lines = (ROOT / "cpp" / "src" / f"{source}.cpp").read_text().splitlines()
+    lines = (ROOT / "cpp" / "src" / file_of(source)).read_text().splitlines()
     return [Fault(source, k, text) for k, line in enumerate(lines) for text in changed(line)]
 
 
@@ -112,8 +121,8 @@ def all_pass(tests: list[str]) -> bool:
 
 def verdict(fault: Fault) -> str:
     """Put one fault in, build, test, and take it out again."""
-    original = ROOT / "cpp" / "src" / f"{fault.source}.cpp"
-    mutated = TREE / "cpp" / "src" / f"{fault.source}.cpp"
+    original = ROOT / "cpp" / "src" / file_of(fault.source)
+    mutated = TREE / "cpp" / "src" / file_of(fault.source)
     lines = original.read_text().splitlines()
     lines[fault.line] = fault.text
     mutated.write_text("\n".join(lines) + "\n")
@@ -134,7 +143,7 @@ def trials(source: str, count: int, seed: int, end: float) -> list[str]:
             break
         verdicts.append(verdict(fault))
         if verdicts[-1] == "missed":
-            print(f"missed  cpp/src/{source}.cpp:{fault.line + 1}:{fault.text}", flush=True)
+            print(f"missed  cpp/src/{file_of(source)}:{fault.line + 1}:{fault.text}", flush=True)
     tried = len(verdicts) - verdicts.count("no code")
     print(f"{source}: {verdicts.count('noticed')} of {tried} noticed ({len(everything)} faults known)", flush=True)
     return verdicts

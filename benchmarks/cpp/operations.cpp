@@ -44,8 +44,17 @@ Poses poses() {
   return result;
 }
 
-DmpOptions log_linear() {
+/// Nothing is chosen by the data, so that the counts are those of the same model from release to release.
+DmpOptions stated() {
   DmpOptions options;
+  options.basis_count = 100;
+  options.regression = Regression::lwr;
+  options.derivatives = Derivatives::interpolate;
+  return options;
+}
+
+DmpOptions log_linear() {
+  DmpOptions options = stated();
   options.orientation_form = OrientationForm::log_linear;
   return options;
 }
@@ -63,8 +72,8 @@ std::map<std::string, std::function<void()>> operations() {
   const Poses p = poses();
   const Demonstration positions(t, y);
   const PoseDemonstration both(t, p);
-  const Dmp dmp = Dmp::fit(positions);
-  const PoseDmp pose = PoseDmp::fit(both);
+  const Dmp dmp = Dmp::fit(positions, stated());
+  const PoseDmp pose = PoseDmp::fit(both, stated());
   return {
       {"step_position", stepping(Run(dmp))},
       {"step_pose", stepping(PoseRun(pose))},
@@ -76,10 +85,12 @@ std::map<std::string, std::function<void()>> operations() {
               for (int i = 0; i < 2000; ++i) held.step(5.0);
               return held;
             }()]() mutable { run.step(kStep); }},
-      {"fit_position", [t, y] { Dmp::fit(Demonstration(t, y)); }},
-      {"fit_pose", [t, p] { PoseDmp::fit(PoseDemonstration(t, p)); }},
-      {"fit_100_positions", [t, ys = std::vector<RowMatrix>(100, y)] { fit_each(t, ys); }},
-      {"fit_100_poses", [t, ps = std::vector<Poses>(100, p)] { fit_each(t, ps); }},
+      {"fit_position", [t, y] { Dmp::fit(Demonstration(t, y), stated()); }},
+      {"fit_pose", [t, p] { PoseDmp::fit(PoseDemonstration(t, p), stated()); }},
+      {"fit_position_automatic", [t, y] { Dmp::fit(Demonstration(t, y)); }},
+      {"fit_pose_automatic", [t, p] { PoseDmp::fit(PoseDemonstration(t, p)); }},
+      {"fit_100_positions", [t, ys = std::vector<RowMatrix>(100, y)] { fit_each(t, ys, stated()); }},
+      {"fit_100_poses", [t, ps = std::vector<Poses>(100, p)] { fit_each(t, ps, stated()); }},
       {"rollout_position", [dmp] { dmp.rollout({}, {}, kStep); }},
       {"rollout_pose", [pose] { pose.rollout({}, {}, kStep); }},
   };

@@ -9,11 +9,9 @@ set(DMP_core_SOURCES
   model_file/model_json.cpp
   motion/demonstration.cpp
   motion/dtw.cpp
-  motion/spread.cpp
   primitive/automatic_fit.cpp
   primitive/average.cpp
   primitive/basis.cpp
-  primitive/batch.cpp
   primitive/dmp.cpp
   primitive/fit_report.cpp
   primitive/forcing.cpp
@@ -23,12 +21,17 @@ set(DMP_core_SOURCES
   primitive/normal_equations.cpp
   primitive/options.cpp
   primitive/orientation_dmp.cpp
-  primitive/orientation_motion.cpp
+  primitive/orientation_forms.cpp
   primitive/phase.cpp
   primitive/pose_dmp.cpp
-  primitive/position_motion.cpp
+  primitive/pose_gripper_dmp.cpp
+  primitive/pose_space.cpp
+  primitive/rotation_space.cpp
+  primitive/rotation_system.cpp
   primitive/spring_damper.cpp
   primitive/turning_reference.cpp
+  primitive/vector_space.cpp
+  primitive/vector_system.cpp
   spline/band_cholesky.cpp
   spline/collocation.cpp
   spline/denoising.cpp

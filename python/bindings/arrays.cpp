@@ -53,6 +53,11 @@ py::array_t<double> copy_square(const Eigen::Matrix<double, N, N>& matrix) {
   return array;
 }
 
+py::array_t<double> read_only(py::array_t<double> array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
 }  // namespace
 
 Eigen::VectorXd to_vector(const Array& array, const std::string& name) {
@@ -95,5 +100,12 @@ py::array_t<double> from_rotation(const Eigen::Matrix3d& rotation) { return copy
 py::array_t<double> from_pose(const Eigen::Matrix4d& pose) { return copy_square<4>(pose); }
 py::array_t<double> from_rotations(const Rotations& rotations) { return stack<3>(rotations); }
 py::array_t<double> from_poses(const Poses& poses) { return stack<4>(poses); }
+
+py::array_t<double> shown(const Eigen::VectorXd& vector) { return read_only(from_vector(vector)); }
+py::array_t<double> shown(const RowMatrix& matrix) { return read_only(from_matrix(matrix)); }
+py::array_t<double> shown(const Eigen::Matrix3d& rotation) { return read_only(from_rotation(rotation)); }
+py::array_t<double> shown(const Eigen::Matrix4d& pose) { return read_only(from_pose(pose)); }
+py::array_t<double> shown(const Rotations& rotations) { return read_only(from_rotations(rotations)); }
+py::array_t<double> shown(const Poses& poses) { return read_only(from_poses(poses)); }
 
 }  // namespace dmp::python

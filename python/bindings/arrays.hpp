@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace dmp::python {
 
@@ -37,5 +38,18 @@ py::array_t<double> from_rotation(const Eigen::Matrix3d& rotation);
 py::array_t<double> from_pose(const Eigen::Matrix4d& pose);
 py::array_t<double> from_rotations(const Rotations& rotations);
 py::array_t<double> from_poses(const Poses& poses);
+
+/// What a property hands out: an array that refuses to be written to, because writing to it would change a
+/// copy and nothing else. Of a point of a product a tuple of two.
+py::array_t<double> shown(const Eigen::VectorXd& vector);
+py::array_t<double> shown(const RowMatrix& matrix);
+py::array_t<double> shown(const Eigen::Matrix3d& rotation);
+py::array_t<double> shown(const Eigen::Matrix4d& pose);
+py::array_t<double> shown(const Rotations& rotations);
+py::array_t<double> shown(const Poses& poses);
+template <class First, class Second>
+py::tuple shown(const std::pair<First, Second>& point) {
+  return py::make_tuple(shown(point.first), shown(point.second));
+}
 
 }  // namespace dmp::python

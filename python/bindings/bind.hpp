@@ -8,10 +8,10 @@ namespace dmp::python {
 void bind_so3(pybind11::module_& m);
 void bind_options(pybind11::module_& m);
 void bind_demonstration(pybind11::module_& m);
-void bind_dmp(pybind11::module_& m);
-void bind_orientation_dmp(pybind11::module_& m);
-void bind_pose_dmp(pybind11::module_& m);
-void bind_batch(pybind11::module_& m);
+void bind_vector_space(pybind11::module_& m);
+void bind_rotation_space(pybind11::module_& m);
+void bind_pose_space(pybind11::module_& m);
+void bind_pose_gripper_space(pybind11::module_& m);
 void bind_dtw(pybind11::module_& m);
 void bind_learning(pybind11::module_& m);
 void bind_file(pybind11::module_& m);

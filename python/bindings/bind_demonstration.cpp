@@ -5,74 +5,26 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "spaces.hpp"
+#include "trajectories.hpp"
 #include "values.hpp"
 
 namespace dmp::python {
 namespace {
 
 void bind_trajectories(py::module_& m) {
-  py::class_<Trajectory>(m, "Trajectory", "Positions over time: what Dmp.rollout returns.")
-      .def_property_readonly(
-          "time", [](const Trajectory& t) { return from_vector(t.time); }, "(T,) s")
-      .def_property_readonly(
-          "position", [](const Trajectory& t) { return from_matrix(t.position); }, "(T, d)")
-      .def_property_readonly(
-          "velocity", [](const Trajectory& t) { return from_matrix(t.velocity); }, "(T, d) per s")
-      .def_property_readonly(
-          "acceleration", [](const Trajectory& t) { return from_matrix(t.acceleration); }, "(T, d) per s^2")
-      .def("__len__", [](const Trajectory& t) { return t.time.size(); })
-      .def("__repr__",
-           [](const Trajectory& t) {
-             return shown_samples("Trajectory", t.time, std::to_string(t.position.cols()) + " dimensions");
-           })
-      .def(py::pickle(
-          [](const Trajectory& t) {
-            return py::make_tuple(from_vector(t.time), from_matrix(t.position), from_matrix(t.velocity),
-                                  from_matrix(t.acceleration));
-          },
-          [](const py::tuple& state) {
-            const auto table = [&](int k) { return to_matrix(state[k].cast<Array>(), "state"); };
-            return Trajectory{to_vector(state[0].cast<Array>(), "state"), table(1), table(2), table(3)};
-          }));
-
-  using O = OrientationTrajectory;
-  py::class_<O>(m, "OrientationTrajectory", "Orientations over time: what OrientationDmp.rollout returns.")
-      .def_property_readonly(
-          "time", [](const O& t) { return from_vector(t.time); }, "(T,) s")
-      .def_property_readonly(
-          "rotation", [](const O& t) { return from_rotations(t.rotation); }, "(T, 3, 3) body -> world")
-      .def_property_readonly(
-          "angular_velocity", [](const O& t) { return from_matrix(t.angular_velocity); },
-          "(T, 3) rad/s, world frame")
-      .def_property_readonly(
-          "angular_acceleration", [](const O& t) { return from_matrix(t.angular_acceleration); },
-          "(T, 3) rad/s^2, world frame")
-      .def("__len__", [](const O& t) { return t.time.size(); })
-      .def("__repr__", [](const O& t) { return shown_samples("OrientationTrajectory", t.time); })
-      .def(py::pickle(
-          [](const O& t) {
-            return py::make_tuple(from_vector(t.time), from_rotations(t.rotation),
-                                  from_matrix(t.angular_velocity), from_matrix(t.angular_acceleration));
-          },
-          [](const py::tuple& state) {
-            const auto array = [&](int k) { return state[k].cast<Array>(); };
-            return O{to_vector(array(0), "state"), to_rotations(array(1), "state"),
-                     to_matrix(array(2), "state"), to_matrix(array(3), "state")};
-          }));
-
+  bind_trajectory<VectorSpace>(m);
+  bind_trajectory<RotationSpace>(m);
+  bind_trajectory<PoseGripperSpace>(m);
   using P = PoseTrajectory;
-  py::class_<P>(m, "PoseTrajectory", "Poses over time: what PoseDmp.rollout returns.")
-      .def_property_readonly(
-          "time", [](const P& t) { return from_vector(t.time); }, "(T,) s")
-      .def_property_readonly(
-          "pose", [](const P& t) { return from_poses(t.pose); }, "(T, 4, 4) [R p; 0 1], body -> world")
+  bind_trajectory<PoseSpace>(m)
       .def_property_readonly(
           "position",
           [](const P& t) {
             RowMatrix position(t.time.size(), 3);
             for (Eigen::Index k = 0; k < position.rows(); ++k)
               position.row(k) = t.pose[static_cast<std::size_t>(k)].topRightCorner<3, 1>();
-            return from_matrix(position);
+            return shown(position);
           },
           "(T, 3) m")
       .def_property_readonly(
@@ -80,27 +32,30 @@ void bind_trajectories(py::module_& m) {
           [](const P& t) {
             Rotations rotations;
             for (const Eigen::Matrix4d& pose : t.pose) rotations.push_back(pose.topLeftCorner<3, 3>());
-            return from_rotations(rotations);
+            return shown(rotations);
           },
-          "(T, 3, 3)")
+          "(T, 3, 3)");
+}
+
+void bind_pose_gripper_demonstration(py::module_& m) {
+  using D = PoseGripperDemonstration;
+  py::class_<D>(m, "PoseGripperDemonstration", "The pose of a tool and its gripper as they were recorded.")
+      .def(py::init([](const Array& times, const Array& poses, const Array& gripper) {
+             return D(to_vector(times, "times"), to_poses(poses, "poses"), to_matrix(gripper, "gripper"));
+           }),
+           py::arg("times"), py::arg("poses"), py::arg("gripper"),
+           "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m; gripper "
+           "(T,) "
+           "or (T, k): its opening, or the joints of a hand. Raises InvalidArgument naming the sample.")
       .def_property_readonly(
-          "twist", [](const P& t) { return from_matrix(t.twist); },
-          "(T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame")
+          "time", [](const D& d) { return shown(d.time()); }, "(T,) s, from 0")
       .def_property_readonly(
-          "acceleration", [](const P& t) { return from_matrix(t.acceleration); },
-          "(T, 6) the twist's rate, m/s^2 and rad/s^2")
-      .def("__len__", [](const P& t) { return t.time.size(); })
-      .def("__repr__", [](const P& t) { return shown_samples("PoseTrajectory", t.time); })
-      .def(py::pickle(
-          [](const P& t) {
-            return py::make_tuple(from_vector(t.time), from_poses(t.pose), from_matrix(t.twist),
-                                  from_matrix(t.acceleration));
-          },
-          [](const py::tuple& state) {
-            const auto array = [&](int k) { return state[k].cast<Array>(); };
-            return P{to_vector(array(0), "state"), to_poses(array(1), "state"), to_matrix(array(2), "state"),
-                     to_matrix(array(3), "state")};
-          }));
+          "pose", [](const D& d) { return d.first(); }, "a PoseDemonstration")
+      .def_property_readonly(
+          "gripper", [](const D& d) { return d.second(); }, "a Demonstration")
+      .def_property_readonly("duration", &D::duration, "s")
+      .def("__repr__", [](const D& d) { return shown_samples("PoseGripperDemonstration", d.time()); })
+      .def("__len__", &D::size);
 }
 
 void bind_orientation_demonstration(py::module_& m) {
@@ -130,9 +85,9 @@ void bind_orientation_demonstration(py::module_& m) {
           "times (T,) s; quaternions (T, 4) body -> world, of length 1 to 1e-2, in the order \"wxyz\" or "
           "\"xyzw\"; q and -q are one rotation.")
       .def_property_readonly(
-          "time", [](const O& d) { return from_vector(d.time()); }, "(T,) s, from 0")
+          "time", [](const O& d) { return shown(d.time()); }, "(T,) s, from 0")
       .def_property_readonly(
-          "rotation", [](const O& d) { return from_rotations(d.rotation()); }, "(T, 3, 3)")
+          "rotation", [](const O& d) { return shown(d.rotation()); }, "(T, 3, 3)")
       .def_property_readonly("duration", &O::duration, "s")
       .def(
           "at", [](const O& d, const Array& times) { return d.at(to_vector(times, "times")); },
@@ -228,9 +183,9 @@ void bind_demonstration(py::module_& m) {
            "times (T,) s, strictly increasing; positions (T, d) or (T,), T >= 2. Raises InvalidArgument "
            "naming the sample.")
       .def_property_readonly(
-          "time", [](const Demonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
+          "time", [](const Demonstration& d) { return shown(d.time()); }, "(T,) s, from 0")
       .def_property_readonly(
-          "position", [](const Demonstration& d) { return from_matrix(d.position()); }, "(T, d)")
+          "position", [](const Demonstration& d) { return shown(d.position()); }, "(T, d)")
       .def_property_readonly("dimension", &Demonstration::dimension)
       .def_property_readonly("duration", &Demonstration::duration, "s")
       .def(
@@ -291,9 +246,9 @@ void bind_demonstration(py::module_& m) {
           "times (T,) s; positions (T, 3) m; quaternions (T, 4) body -> world in the order \"wxyz\" or "
           "\"xyzw\".")
       .def_property_readonly(
-          "time", [](const PoseDemonstration& d) { return from_vector(d.time()); }, "(T,) s, from 0")
+          "time", [](const PoseDemonstration& d) { return shown(d.time()); }, "(T,) s, from 0")
       .def_property_readonly(
-          "pose", [](const PoseDemonstration& d) { return from_poses(d.pose()); }, "(T, 4, 4)")
+          "pose", [](const PoseDemonstration& d) { return shown(d.pose()); }, "(T, 4, 4)")
       .def_property_readonly("position", &PoseDemonstration::position)
       .def_property_readonly("orientation", &PoseDemonstration::orientation)
       .def_property_readonly("duration", &PoseDemonstration::duration, "s")
@@ -348,6 +303,7 @@ void bind_demonstration(py::module_& m) {
       .def("__repr__",
            [](const PoseDemonstration& d) { return shown_samples("PoseDemonstration", d.time()); })
       .def("__len__", &PoseDemonstration::size);
+  bind_pose_gripper_demonstration(m);
 }
 
 }  // namespace dmp::python

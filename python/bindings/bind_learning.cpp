@@ -1,11 +1,13 @@
+#include <pybind11/native_enum.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <dmp/average.hpp>
 #include <dmp/fit_report.hpp>
 #include <dmp/spread.hpp>
+#include <dmp/status.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "options.hpp"
 
 namespace dmp::python {
 namespace {
@@ -21,70 +23,129 @@ py::array_t<double> stacked(const Matrices& matrices) {
   return array;
 }
 
+template <class Demonstration>
+void def_spread(py::module_& m, const char* doc) {
+  m.def(
+      "spread",
+      [](const std::vector<Demonstration>& demonstrations, Eigen::Index count) {
+        return spread(demonstrations, count);
+      },
+      py::arg("demonstrations"), py::arg("count") = 101, doc);
+}
+
 void bind_spread(py::module_& m) {
   py::class_<Spread>(m, "Spread",
                      "Where demonstrations of one motion lie over the phase, each taken at t / duration.")
       .def_property_readonly(
-          "phase", [](const Spread& s) { return from_vector(s.phase); }, "(K,) 0 to 1")
+          "phase", [](const Spread& s) { return shown(s.phase); }, "(K,) 0 to 1")
       .def_property_readonly(
-          "mean", [](const Spread& s) { return from_matrix(s.mean); }, "(K, d)")
+          "mean", [](const Spread& s) { return shown(s.mean); }, "(K, d)")
       .def_property_readonly(
           "covariance", [](const Spread& s) { return stacked(s.covariance); },
           "(K, d, d) of one demonstration about the mean");
   py::class_<PoseSpread>(m, "PoseSpread", "Where demonstrations of one motion lie over the phase, for poses.")
       .def_property_readonly(
-          "phase", [](const PoseSpread& s) { return from_vector(s.phase); }, "(K,) 0 to 1")
+          "phase", [](const PoseSpread& s) { return shown(s.phase); }, "(K,) 0 to 1")
       .def_property_readonly(
-          "mean", [](const PoseSpread& s) { return from_poses(s.mean); }, "(K, 4, 4)")
+          "mean", [](const PoseSpread& s) { return shown(s.mean); }, "(K, 4, 4)")
       .def_property_readonly(
           "covariance", [](const PoseSpread& s) { return stacked(s.covariance); },
           "(K, 6, 6) of position [m] and rotation vector from the mean [rad, world frame]");
-  const char* doc =
+  const char* const doc =
       "Mean and covariance of demonstrations at `count` even phases. Raises InvalidArgument for none, or for "
       "different "
       "dimensions.";
-  m.def("spread", py::overload_cast<const std::vector<Demonstration>&, Eigen::Index>(&spread),
-        py::arg("demonstrations"), py::arg("count") = 101, doc);
-  m.def("spread", py::overload_cast<const std::vector<PoseDemonstration>&, Eigen::Index>(&spread),
-        py::arg("demonstrations"), py::arg("count") = 101, doc);
+  def_spread<Demonstration>(m, doc);
+  def_spread<PoseDemonstration>(m, doc);
 }
 
-template <class Model, class Demonstration>
-void def_assess(py::module_& m) {
+void bind_basis(py::module_& m) {
+  using B = GaussianBasis;
+  py::class_<B>(m, "GaussianBasis", "Gaussian kernels over the phase.")
+      .def_static("equal_in_time", &B::equal_in_time, py::arg("count"), py::arg("alpha_x"),
+                  py::arg("overlap"), "Kernels of one width in time; neighbours cross at exp(-overlap / 4).")
+      .def_static("source", &B::source, py::arg("count"), py::arg("alpha_x"),
+                  "Kernels in x = exp(-alpha_x s) by DeWolf's rule.")
+      .def_property_readonly("count", &B::count, "N")
+      .def_property_readonly("alpha_x", &B::alpha_x)
+      .def_property_readonly(
+          "centers", [](const B& b) { return shown(b.centers()); }, "(N,) in x")
+      .def(
+          "activations",
+          [](const B& b, const Array& phase, bool normalised) {
+            return from_matrix(b.activations(to_vector(phase, "phase"), normalised));
+          },
+          py::arg("phase"), py::arg("normalised") = false,
+          "The kernels (T, N) at phases (T,); rows sum to 1 if normalised.")
+      .def(
+          "features",
+          [](const B& b, const Array& phase) { return from_matrix(b.features(to_vector(phase, "phase"))); },
+          py::arg("phase"),
+          "What the forcing term is linear in (T, N): features(phase) @ weights is the forcing term.");
+}
+
+void bind_targets(py::module_& m) {
+  using T = ForcingTarget;
+  py::class_<T>(m, "ForcingTarget", "What a forcing term should be along one demonstration.")
+      .def(py::init([](const Array& phase, const Array& value, const std::optional<Array>& scale) {
+             T target{to_vector(phase, "phase"), to_matrix(value, "value"), {}};
+             target.scale =
+                 scale ? to_vector(*scale, "scale") : Eigen::VectorXd::Ones(target.value.cols()).eval();
+             return target;
+           }),
+           py::arg("phase"), py::arg("value"), py::arg("scale") = py::none(),
+           "phase (K,), increasing; value (K, dims); scale (dims,), 1 unless given.")
+      .def_property_readonly(
+          "phase", [](const T& t) { return shown(t.s); }, "(K,)")
+      .def_property_readonly(
+          "value", [](const T& t) { return shown(t.value); }, "(K, dims)")
+      .def_property_readonly(
+          "scale", [](const T& t) { return shown(t.scale); },
+          "(dims,): value = scale * (basis.features(phase) @ weights)");
   m.def(
-      "assess",
-      [](const Model& model, const std::vector<Demonstration>& demonstrations, double position,
-         double angle) {
-        const py::gil_scoped_release release;
-        return assess(model, demonstrations, {position, angle});
+      "fit_forcing",
+      [](const GaussianBasis& basis, const std::vector<T>& targets, const std::optional<DmpOptions>& options,
+         const py::kwargs& fields) {
+        const DmpOptions chosen = options_with(options, fields).resolved();
+        const auto fitted = [&] {
+          const py::gil_scoped_release release;
+          return fit_forcing(basis, targets, chosen);
+        };
+        return from_matrix(fitted());
       },
-      py::arg("model"), py::arg("demonstrations"), py::arg("position") = Tolerance{}.position,
-      py::arg("angle") = Tolerance{}.angle,
-      "How a model reproduces a list of demonstrations, and what was found in them. `position` and `angle` "
-      "(rad) are the "
-      "RMSE that the suggested number of kernels shall reach.");
-  m.def("average", py::overload_cast<const std::vector<Model>&>(&average), py::arg("models"),
-        "The model with the mean of all weights, starts, goals, start velocities and durations. Raises "
-        "InvalidArgument for "
-        "models that differ in options or dimension; a joint fit is right everywhere.");
+      py::arg("basis"), py::arg("targets"), py::arg("options") = py::none(),
+      "The weights (N, dims) of one forcing term for all targets together, by the options' regression.");
 }
 
 }  // namespace
 
+Learner learner_of(const py::object& function) {
+  return [&function](const GaussianBasis& basis, const std::vector<ForcingTarget>& targets) {
+    const py::gil_scoped_acquire held;
+    return to_matrix(function(basis, targets).cast<Array>(), "learner: weights");
+  };
+}
+
 void bind_learning(py::module_& m) {
+  py::native_enum<Status>(m, "Status", "enum.Enum", "What a call inside the control loop says.")
+      .value("running", Status::running)
+      .value("finished", Status::finished)
+      .value("invalid_input", Status::invalid_input)
+      .value("not_finite", Status::not_finite)
+      .finalize();
   py::class_<FitReport>(
       m, "FitReport",
       "How a model reproduces demonstrations. Columns: dimensions of a position; components of the "
       "rotation vector between the orientations; for poses three of each.")
       .def_property_readonly(
-          "rmse", [](const FitReport& r) { return from_vector(r.rmse); }, "(d,)")
+          "rmse", [](const FitReport& r) { return shown(r.rmse); }, "(d,)")
       .def_property_readonly(
-          "largest", [](const FitReport& r) { return from_vector(r.largest); }, "(d,)")
+          "largest", [](const FitReport& r) { return shown(r.largest); }, "(d,)")
       .def_property_readonly(
-          "noise", [](const FitReport& r) { return from_vector(r.noise); },
+          "noise", [](const FitReport& r) { return shown(r.noise); },
           "(d,) standard deviation found in the data")
       .def_property_readonly(
-          "removed", [](const FitReport& r) { return from_vector(r.removed); },
+          "removed", [](const FitReport& r) { return shown(r.removed); },
           "(d,) root of the mean square that smoothing took out; 0 unless it was asked for")
       .def_readonly(
           "evidence", &FitReport::evidence,
@@ -95,9 +156,8 @@ void bind_learning(py::module_& m) {
       .def_readonly("suggested_basis_count", &FitReport::suggested_basis_count,
                     "the fewest of 10, 20, 40, .. 1280 kernels that reach the tolerance; 0: none does")
       .def_readonly("warnings", &FitReport::warnings);
-  def_assess<Dmp, Demonstration>(m);
-  def_assess<OrientationDmp, OrientationDemonstration>(m);
-  def_assess<PoseDmp, PoseDemonstration>(m);
+  bind_basis(m);
+  bind_targets(m);
   bind_spread(m);
 }
 

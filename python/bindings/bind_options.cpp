@@ -118,6 +118,8 @@ void bind_options(py::module_& m) {
       .def_static("source", &DmpOptions::source,
                   "The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and "
                   "E7 fixed.")
+      .def("validate", &DmpOptions::validate,
+           "Raises InvalidArgument, naming the field, for one outside its range.")
       .def_readwrite("basis_count", &DmpOptions::basis_count,
                      "N, kernels; 0: as many as the demonstrations need")
       .def_readwrite("alpha", &DmpOptions::alpha, "spring and damper: tau zd = alpha (beta (g - y) - z) + f")

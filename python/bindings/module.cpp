@@ -56,12 +56,12 @@ PYBIND11_MODULE(_core, m) {
   dmp::python::bind_so3(m);
   dmp::python::bind_demonstration(m);
   dmp::python::bind_options(m);
-  dmp::python::bind_dmp(m);
-  dmp::python::bind_orientation_dmp(m);
-  dmp::python::bind_pose_dmp(m);
-  dmp::python::bind_batch(m);
-  dmp::python::bind_dtw(m);
   dmp::python::bind_learning(m);
+  dmp::python::bind_vector_space(m);
+  dmp::python::bind_rotation_space(m);
+  dmp::python::bind_pose_space(m);
+  dmp::python::bind_pose_gripper_space(m);
+  dmp::python::bind_dtw(m);
   dmp::python::bind_file(m);
   dmp::python::bind_kinematics(m);
   dmp::python::bind_joint_tracker(m);

@@ -99,7 +99,7 @@ def test_a_goal_and_a_duration_can_be_changed_on_the_way():
     run = dmpcpp.PoseRun(PoseDmp.fit(poses()))
     for _ in range(100):
         run.step(0.01)
-    goal = run.goal
+    goal = run.goal.copy()
     goal[:3, 3] += 0.1
     run.goal = goal
     run.duration = 5.0

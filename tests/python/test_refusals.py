@@ -177,6 +177,75 @@ for kind, model in MODELS.items():
         ),
     }  # fmt: skip
 
+OPENING = 0.04 * (1 + np.cos(3 * TIME))[:, None]
+GRASP = dmpcpp.PoseGripperDmp.fit(dmpcpp.PoseGripperDemonstration(TIME, POSES, OPENING), basis_count=5)
+BASIS = MODELS["Dmp"].basis
+TARGET = dmpcpp.Dmp.targets([DEMONSTRATIONS["Dmp"]])[0]
+
+
+def after(run: Any, *call: Any) -> Any:
+    """Return a run after the call of a method."""
+    getattr(run, call[0])(*call[1:])
+    return run
+
+
+def with_weights(model: Any) -> Callable[..., Any]:
+    return lambda weights: model.with_weights(weights).rollout(dt=0.1)
+
+
+ENTRIES |= {f"{kind}.with_weights": (with_weights(model), {"weights": model.weights}) for kind, model in MODELS.items()}
+ENTRIES |= {
+    "GaussianBasis.equal_in_time": (
+        lambda **values: dmpcpp.GaussianBasis.equal_in_time(**values).activations(TIME),
+        {"count": 5, "alpha_x": 4.0, "overlap": 0.5},
+    ),
+    "GaussianBasis.source": (
+        lambda **values: dmpcpp.GaussianBasis.source(**values).activations(TIME),
+        {"count": 5, "alpha_x": 4.0},
+    ),
+    "GaussianBasis.activations": (BASIS.activations, {"phase": TIME}),
+    "GaussianBasis.features": (BASIS.features, {"phase": TIME}),
+    "ForcingTarget.__init__": (
+        lambda **values: dmpcpp.fit_forcing(BASIS, [dmpcpp.ForcingTarget(**values)]),
+        {"phase": TARGET.phase, "value": TARGET.value, "scale": TARGET.scale},
+    ),
+    "PoseGripperDemonstration.__init__": (
+        dmpcpp.PoseGripperDemonstration,
+        {"times": TIME, "poses": POSES, "gripper": OPENING},
+    ),
+    "PoseGripperDmp.rollout": (
+        lambda pose, gripper, **values: GRASP.rollout((pose, gripper), **values),
+        {"pose": GRASP.goal[0], "gripper": GRASP.goal[1], "duration": 1.0, "dt": 0.1},
+    ),
+    "PoseGripperDmp.rollout_at": (GRASP.rollout_at, {"times": TIME, "duration": 1.0}),
+    "PoseGripperDmp.rollout_each": (
+        lambda poses, grippers, durations: GRASP.rollout_each((poses, grippers), durations, 5),
+        {
+            "poses": np.stack([GRASP.goal[0]] * 2),
+            "grippers": np.stack([GRASP.goal[1]] * 2),
+            "durations": np.array([1.0, 2.0]),
+        },
+    ),
+    "PoseGripperDmp.fit_each": (
+        lambda times, poses, grippers: [
+            each.rollout(dt=0.1) for each in dmpcpp.PoseGripperDmp.fit_each(times, (poses, grippers), basis_count=5)
+        ],
+        {"times": TIME, "poses": np.stack([POSES] * 2), "grippers": np.stack([OPENING] * 2)},
+    ),
+    "PoseGripperDmp.with_weights": (with_weights(GRASP), {"weights": GRASP.weights}),
+    "PoseGripperDmp.forcing": (GRASP.forcing, {"phase": TIME}),
+    "PoseGripperDmp.activations": (GRASP.activations, {"phase": TIME}),
+    "PoseGripperRun.step": (lambda dt: after(dmpcpp.PoseGripperRun(GRASP), "step", dt), {"dt": 0.1}),
+    "PoseGripperRun.set_tracking_error": (
+        lambda error: after(dmpcpp.PoseGripperRun(GRASP), "set_tracking_error", error),
+        {"error": 0.1},
+    ),
+    "PoseGripperRun.start_from": (
+        lambda pose, gripper, velocity: after(dmpcpp.PoseGripperRun(GRASP), "start_from", (pose, gripper), velocity),
+        {"pose": GRASP.start[0], "gripper": GRASP.start[1], "velocity": np.ones(7)},
+    ),
+}
+
 RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "step": lambda run, value: run.step(value),
     "duration": lambda run, value: setattr(run, "duration", value),
@@ -187,7 +256,10 @@ RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
 }
 NO_NUMBERS = {"Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
               "FollowOptions.__init__", "TrackOptions.__init__", "average", "from_json", "load", "save",
-              "to_json", "PoseDemonstration.noise_estimates"}  # fmt: skip
+              "to_json", "PoseDemonstration.noise_estimates", "fit_forcing", "PoseGripperDmp.fit",
+              "PoseGripperRun.__init__", "DmpOptions.validate"}  # fmt: skip
+for kind in (*MODELS, "PoseGripperDmp"):
+    NO_NUMBERS |= {f"{kind}.__init__", f"{kind}.targets", f"{kind}Parameters.__init__"}
 
 
 def place_of(run: Any) -> np.ndarray:

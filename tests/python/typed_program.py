@@ -49,5 +49,5 @@ def chosen() -> dmpcpp.DmpOptions:
 def mistaken(model: dmpcpp.PoseDmp) -> None:
     model.rollout(duration="two")  # type: ignore[arg-type]
     model.duration = 1.0  # type: ignore[misc]
-    print(model.basis)  # type: ignore[attr-defined]
+    print(model.kernels)  # type: ignore[attr-defined]
     dmpcpp.PoseRun(model).step()  # type: ignore[call-arg]

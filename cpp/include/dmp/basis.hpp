@@ -46,6 +46,10 @@ class DMP_EXPORT GaussianBasis {
   /// (T x N) psi at each phase s; each row divided by its sum if `normalised`.
   /// Throws InvalidArgument for a phase that is not finite or below 0.
   RowMatrix activations(const Eigen::VectorXd& s, bool normalised = false) const;
+  /// (T x N) what the forcing term is linear in, x psi / sum psi: features(s) * weights = f(s).
+  RowMatrix features(const Eigen::VectorXd& s) const;
+  /// x = exp(-alpha_x s), by which the forcing term is multiplied so that it fades out; 0 beyond exp(-400).
+  double gate(double s) const noexcept DMP_REALTIME;
   static void require_phases(const Eigen::VectorXd& s);
 
  private:
@@ -56,7 +60,6 @@ class DMP_EXPORT GaussianBasis {
   GaussianBasis(int count, double alpha_x);
   Place place(double s) const noexcept;
   PhasePair pair(double s, double next, int middle) const noexcept;
-  double x(double s) const noexcept;
   Window equal_in_time_window(double s, double* psi) const noexcept;
   Window source_window(double s, double* psi) const noexcept;
 

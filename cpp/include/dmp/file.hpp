@@ -4,6 +4,7 @@
 #include <dmp/export.hpp>
 #include <dmp/orientation_dmp.hpp>
 #include <dmp/pose_dmp.hpp>
+#include <dmp/pose_gripper_dmp.hpp>
 
 #include <string>
 #include <variant>
@@ -11,7 +12,7 @@
 /// Model files: JSON, versioned, every number as it was to the last bit. Schema: docs/model-file.md.
 namespace dmp {
 
-using Model = std::variant<Dmp, OrientationDmp, PoseDmp>;
+using Model = std::variant<Dmp, OrientationDmp, PoseDmp, PoseGripperDmp>;
 
 /// Throws InvalidArgument for a model that from_json would refuse for its size.
 DMP_EXPORT std::string to_json(const Model& model);
@@ -30,5 +31,6 @@ DMP_EXPORT Model load(const std::string& path);
 DMP_EXPORT Dmp load_dmp(const std::string& path);
 DMP_EXPORT OrientationDmp load_orientation_dmp(const std::string& path);
 DMP_EXPORT PoseDmp load_pose_dmp(const std::string& path);
+DMP_EXPORT PoseGripperDmp load_pose_gripper_dmp(const std::string& path);
 
 }  // namespace dmp

@@ -37,12 +37,9 @@ struct FitReport {
 
 /// Holds a model against demonstrations, those that it was learned from or others. Throws InvalidArgument for
 /// none, for another dimension, or for a tolerance that is not positive.
-DMP_EXPORT FitReport assess(const Dmp& dmp, const std::vector<Demonstration>& demonstrations,
-                            const Tolerance& tolerance = {});
-DMP_EXPORT FitReport assess(const OrientationDmp& dmp,
-                            const std::vector<OrientationDemonstration>& demonstrations,
-                            const Tolerance& tolerance = {});
-DMP_EXPORT FitReport assess(const PoseDmp& dmp, const std::vector<PoseDemonstration>& demonstrations,
+template <class Space>
+DMP_EXPORT FitReport assess(const Primitive<Space>& model,
+                            const std::vector<typename Space::Demonstration>& demonstrations,
                             const Tolerance& tolerance = {});
 
 }  // namespace dmp

@@ -7,6 +7,7 @@
 #include <dmp/trajectory.hpp>
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 namespace dmp {
@@ -57,6 +58,11 @@ struct ForcingTarget {
 /// sum_k psi_k.
 DMP_EXPORT RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets,
                                  const DmpOptions& options);
+
+/// How weights (N x dims) are found for the forcing terms along demonstrations: fit_forcing, or a function of
+/// the user's own. A target's value is its scale times basis.features(target.s) * weights, axis by axis.
+using Learner =
+    std::function<RowMatrix(const GaussianBasis& basis, const std::vector<ForcingTarget>& targets)>;
 
 /// The condition number of the matrix that fit_forcing solves with (ridge) or descends on (locally weighted
 /// regression), for samples spread evenly over the phase.

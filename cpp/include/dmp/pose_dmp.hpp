@@ -1,19 +1,15 @@
 #pragma once
 
-#include <dmp/demonstration.hpp>
 #include <dmp/dmp.hpp>
-#include <dmp/export.hpp>
 #include <dmp/orientation_dmp.hpp>
 
 #include <Eigen/Core>
-#include <memory>
-#include <optional>
-#include <vector>
+#include <tuple>
 
 namespace dmp {
 
 /// All that a PoseDmp is: what a model file holds.
-struct PoseDmpParameters {
+struct DMP_EXPORT PoseDmpParameters {
   DmpOptions options;
   double duration = 1.0;                                ///< s
   Eigen::Matrix4d start = Eigen::Matrix4d::Identity();  ///< [R0 p0; 0 1]
@@ -27,84 +23,86 @@ struct PoseDmpParameters {
   /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans
   /// of the phase that turns along, the first and the last three times. Empty in the other forms.
   RowMatrix reference;
+
+  /// Every field beside the options and those that may be empty, by its name in a model file.
+  static constexpr auto fields() {
+    using P = PoseDmpParameters;
+    return std::make_tuple(std::pair("duration", &P::duration), std::pair("start", &P::start),
+                           std::pair("goal", &P::goal), std::pair("start_twist", &P::start_twist),
+                           std::pair("start_error", &P::start_error), std::pair("amplitude", &P::amplitude),
+                           std::pair("weights", &P::weights));
+  }
+  /// Fields that may be empty, which a model file leaves out then.
+  static constexpr auto optional_fields() {
+    return std::make_tuple(std::pair("reference", &PoseDmpParameters::reference));
+  }
+};
+
+/// R^3 x SO(3) as matrices [R p; 0 1]: a VectorSpace of three dimensions for p beside a RotationSpace for R.
+struct DMP_EXPORT PoseSpace {
+  using Point = Eigen::Matrix4d;
+  using PointArgument = const Eigen::Matrix4d&;
+  using PointView = Eigen::Matrix4d;
+  using Tangent = Eigen::Matrix<double, 6, 1>;  ///< linear velocity of the origin, angular velocity
+  using TangentArgument = const Eigen::Matrix<double, 6, 1>&;
+  using Path = Poses;  ///< (T)
+  using Demonstration = PoseDemonstration;
+  using Trajectory = PoseTrajectory;
+  using Parameters = PoseDmpParameters;
+  struct Output {
+    VectorSpace::Output first;     ///< of the position
+    RotationSpace::Output second;  ///< of the orientation
+  };
 };
 
 /// A dynamic movement primitive for poses [R p; 0 1]: a Dmp for p and an OrientationDmp for R with one phase,
-/// one set of kernels and one duration, advanced in the same steps. p does not depend on R. Immutable.
-class DMP_EXPORT PoseDmp {
- public:
-  static PoseDmp fit(const PoseDemonstration& demonstration, const DmpOptions& options = {});
-  static PoseDmp fit(const std::vector<PoseDemonstration>& demonstrations, const DmpOptions& options = {});
-  explicit PoseDmp(const PoseDmpParameters& parameters);
-
-  const PoseDmpParameters& parameters() const noexcept;
-  const DmpOptions& options() const noexcept { return parameters().options; }
-  double duration() const noexcept { return parameters().duration; }  ///< s
-  const Eigen::Matrix4d& start() const noexcept { return parameters().start; }
-  const Eigen::Matrix4d& goal() const noexcept { return parameters().goal; }
-  const ForcingTerm& forcing() const noexcept;
-
-  /// As Dmp::rollout; goal is a pose.
-  PoseTrajectory rollout(const std::optional<Eigen::Matrix4d>& goal = {}, std::optional<double> duration = {},
-                         double dt = 1e-3) const;
-  PoseTrajectory rollout_at(const Eigen::VectorXd& times, const std::optional<Eigen::Matrix4d>& goal = {},
-                            std::optional<double> duration = {}) const;
-
- private:
-  friend struct detail::BatchFit;
-  /// From `count` demonstrations; `memory` keeps what later fits may share.
-  static PoseDmp fit_together(const PoseDemonstration* demonstrations, std::size_t count,
-                              const DmpOptions& options, std::unique_ptr<detail::ForcingFit>& memory);
-  friend class PoseRun;
-  PoseTrajectory roll_out(const detail::Timetable& timetable, const std::optional<Eigen::Matrix4d>& goal,
-                          std::optional<double> duration) const;
-
-  struct Data;
-  std::shared_ptr<const Data> data_;
+/// one set of kernels and one duration, advanced in the same steps. p does not depend on R.
+using PoseDmp = Primitive<PoseSpace>;
+template <>
+struct SpaceOf<PoseDemonstration> {
+  using type = PoseSpace;
 };
+template <>
+struct SpaceOf<Poses> {
+  using type = PoseSpace;
+};
+extern template class Primitive<PoseSpace>;
+extern template class Stepper<PoseSpace>;
 
-/// One run of a PoseDmp; see Run.
-class DMP_EXPORT PoseRun {
+namespace detail {
+
+/// What a run of poses shows, for the runs of all spaces that hold one.
+inline Eigen::Matrix4d pose_in(const PoseSpace::Output& output) noexcept {
+  return pose_of(output.second.quaternion.toRotationMatrix(), output.first.position);
+}
+inline PoseSpace::Tangent twist_in(const PoseSpace::Output& output) noexcept {
+  PoseSpace::Tangent twist;
+  twist << output.first.velocity, output.second.angular_velocity;
+  return twist;
+}
+inline PoseSpace::Tangent twist_rate_in(const PoseSpace::Output& output) noexcept {
+  PoseSpace::Tangent rate;
+  rate << output.first.acceleration, output.second.angular_acceleration;
+  return rate;
+}
+
+}  // namespace detail
+
+/// One run of a PoseDmp, for one control loop; see Stepper.
+class DMP_EXPORT PoseRun : public Stepper<PoseSpace> {
  public:
-  explicit PoseRun(const PoseDmp& dmp);
-  PoseRun(const PoseRun& other);
-  PoseRun(PoseRun&& other) noexcept;
-  PoseRun& operator=(const PoseRun& other);
-  PoseRun& operator=(PoseRun&& other) noexcept;
-  ~PoseRun();
-
-  Status step(double dt) noexcept DMP_REALTIME;
-  /// Refused (invalid_input) unless finite, with a rotation (so3::is_rotation; the nearest is taken)
-  /// and the last row 0 0 0 1.
-  Status set_goal(const Eigen::Matrix4d& goal) noexcept DMP_REALTIME;
-  Status set_duration(double duration) noexcept DMP_REALTIME;
-  /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
-  Status set_tracking_error(double error) noexcept DMP_REALTIME;
-  /// Comes to rest on the path, and goes on from there; both through DmpOptions::tempo_filter.
-  void pause() noexcept DMP_REALTIME;
-  void resume() noexcept DMP_REALTIME;
-  bool paused() const noexcept DMP_REALTIME;
-  /// twist: linear velocity of the origin [m/s], angular velocity [rad/s], world frame.
-  Status start_from(const Eigen::Matrix4d& pose,
-                    const Eigen::Matrix<double, 6, 1>& twist) noexcept DMP_REALTIME;
-  void reset() noexcept DMP_REALTIME;
-
-  Eigen::Matrix4d pose() const noexcept DMP_REALTIME;      ///< [R p; 0 1]
-  Eigen::Vector3d position() const noexcept DMP_REALTIME;  ///< m
-  Eigen::Matrix3d rotation() const noexcept DMP_REALTIME;
-  const Eigen::Quaterniond& quaternion() const noexcept DMP_REALTIME;
-  Eigen::Matrix<double, 6, 1> twist() const noexcept DMP_REALTIME;         ///< m/s, rad/s, world frame
-  Eigen::Matrix<double, 6, 1> acceleration() const noexcept DMP_REALTIME;  ///< m/s^2, rad/s^2, world frame
-  Eigen::Matrix4d goal() const noexcept DMP_REALTIME;
-  double time() const noexcept DMP_REALTIME;
-  double phase() const noexcept DMP_REALTIME;
-  double duration() const noexcept DMP_REALTIME;
-  Status status() const noexcept DMP_REALTIME;
-
- private:
-  friend class PoseDmp;
-  struct State;
-  std::unique_ptr<State> state_;
+  using Stepper::Stepper;
+  Eigen::Matrix4d pose() const noexcept DMP_REALTIME { return detail::pose_in(output()); }    ///< [R p; 0 1]
+  Eigen::Vector3d position() const noexcept DMP_REALTIME { return output().first.position; }  ///< m
+  Eigen::Matrix3d rotation() const noexcept DMP_REALTIME { return quaternion().toRotationMatrix(); }
+  /// unit, continuous in sign
+  const Eigen::Quaterniond& quaternion() const noexcept DMP_REALTIME { return output().second.quaternion; }
+  /// m/s, rad/s, world frame
+  Eigen::Matrix<double, 6, 1> twist() const noexcept DMP_REALTIME { return detail::twist_in(output()); }
+  /// m/s^2, rad/s^2, world frame
+  Eigen::Matrix<double, 6, 1> acceleration() const noexcept DMP_REALTIME {
+    return detail::twist_rate_in(output());
+  }
 };
 
 }  // namespace dmp

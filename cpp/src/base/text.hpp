@@ -12,6 +12,13 @@ inline std::string number(double value) {
   return text;
 }
 
+/// A number with all digits that tell it from others.
+inline std::string exact_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
 /// name[index]
 inline std::string indexed(const std::string& name, long index) {
   return name + "[" + std::to_string(index) + "]";

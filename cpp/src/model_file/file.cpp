@@ -117,5 +117,8 @@ OrientationDmp load_orientation_dmp(const std::string& path) {
   return load_kind<OrientationDmp>(path, "an OrientationDmp");
 }
 PoseDmp load_pose_dmp(const std::string& path) { return load_kind<PoseDmp>(path, "a PoseDmp"); }
+PoseGripperDmp load_pose_gripper_dmp(const std::string& path) {
+  return load_kind<PoseGripperDmp>(path, "a PoseGripperDmp");
+}
 
 }  // namespace dmp

@@ -11,13 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "primitive/option_fields.hpp"
+
 namespace dmp::detail {
 
 using Json = nlohmann::ordered_json;
-
-/// The names that the values of an enumeration have in a file.
-template <class Enum>
-using Names = std::vector<std::pair<Enum, const char*>>;
 
 /// The member `key`; throws InvalidArgument, naming `where`, unless there is one.
 const Json& member(const Json& object, const std::string& key, const std::string& where);
@@ -79,6 +77,15 @@ class JsonReader {
     }
   }
 
+  /// A point of a product: one member for each of its parts.
+  template <class First, class Second>
+  void operator()(const char* key, std::pair<First, Second>& value) const {
+    const std::string where = prefix_ + key;
+    const JsonReader parts(at(key), where, where + ".");
+    parts("first", value.first);
+    parts("second", value.second);
+  }
+
  private:
   const Json& at(const char* key) const { return member(object_, key, name_); }
 
@@ -115,6 +122,15 @@ class JsonWriter {
     } else {
       object_[key] = to_rows(value);
     }
+  }
+
+  template <class First, class Second>
+  void operator()(const char* key, const std::pair<First, Second>& value) const {
+    Json parts = Json::object();
+    const JsonWriter write(parts);
+    write("first", value.first);
+    write("second", value.second);
+    object_[key] = std::move(parts);
   }
 
  private:

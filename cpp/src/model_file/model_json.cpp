@@ -2,117 +2,80 @@
 
 #include <dmp/error.hpp>
 
+#include <optional>
 #include <set>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "primitive/option_fields.hpp"
+#include "primitive/parameters.hpp"
 
 namespace dmp::detail {
 namespace {
 
-constexpr int kVersion = 2;  // 1: without a reference to turn along
+// What a file calls each kind of model.
+template <class Primitive>
+constexpr const char* kind_of = nullptr;
+template <>
+constexpr const char* kind_of<Dmp> = "dmp";
+template <>
+constexpr const char* kind_of<OrientationDmp> = "orientation_dmp";
+template <>
+constexpr const char* kind_of<PoseDmp> = "pose_dmp";
+template <>
+constexpr const char* kind_of<PoseGripperDmp> = "pose_gripper_dmp";
+
+constexpr int kVersion = 2;  // 1: without fields that may be empty
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
 constexpr std::size_t kMostObjects = 100;  // after each the parser looks through all that its parent holds
 constexpr int kDeepest = 8;
 
-const Names<Kernels> kKernels{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
-const Names<Regression> kRegression{
-    {Regression::lwr, "lwr"}, {Regression::ridge, "ridge"}, {Regression::automatic, "automatic"}};
-const Names<Scaling> kScaling{{Scaling::none, "none"},
-                              {Scaling::per_axis, "per_axis"},
-                              {Scaling::per_axis_relative, "per_axis_relative"},
-                              {Scaling::rotation_dilation, "rotation_dilation"}};
-const Names<OrientationForm> kForm{{OrientationForm::automatic, "automatic"},
-                                   {OrientationForm::ude, "ude"},
-                                   {OrientationForm::log_linear, "log_linear"},
-                                   {OrientationForm::turning, "turning"}};
-const Names<LogBranch> kBranch{{LogBranch::lifted, "lifted"}, {LogBranch::principal, "principal"}};
-const Names<Derivatives> kDerivatives{{Derivatives::interpolate, "interpolate"},
-                                      {Derivatives::smooth, "smooth"},
-                                      {Derivatives::gradient, "gradient"},
-                                      {Derivatives::automatic, "automatic"}};
-const Names<Start> kStart{{Start::demonstrated, "demonstrated"}, {Start::rest, "rest"}};
-const Names<Integrator> kIntegrator{{Integrator::exact, "exact"},
-                                    {Integrator::semi_implicit_euler, "semi_implicit_euler"}};
-
-// What a model file holds, each field once: a reader fills it, a writer writes it.
-
-template <class Visitor, class Options>
-void visit_options(const Visitor& visit, Options& o) {
-  visit("basis_count", o.basis_count);
-  visit("alpha", o.alpha);
-  visit("beta", o.beta);
-  visit("orientation_alpha", o.orientation_alpha);
-  visit("orientation_beta", o.orientation_beta);
-  visit("alpha_x", o.alpha_x);
-  visit("kernels", o.kernels, kKernels);
-  visit("overlap", o.overlap);
-  visit("regression", o.regression, kRegression);
-  visit("passes", o.passes);
-  visit("ridge", o.ridge);
-  visit("scaling", o.scaling, kScaling);
-  visit("orientation_form", o.orientation_form, kForm);
-  visit("log_branch", o.log_branch, kBranch);
-  visit("derivatives", o.derivatives, kDerivatives);
-  visit("start", o.start, kStart);
-  visit("integrator", o.integrator, kIntegrator);
-  visit("force_after_end", o.force_after_end);
-  visit("goal_filter", o.goal_filter);
-  visit("tempo_filter", o.tempo_filter);
-  visit("phase_stop", o.phase_stop);
-}
-
-/// What the velocity and the error at the start are called depends on the kind.
-template <class Visitor, class Parameters>
-void visit_start(const Visitor& visit, Parameters& p) {
-  using Kind = std::remove_const_t<Parameters>;
-  if constexpr (std::is_same_v<Kind, PoseDmpParameters>) {
-    visit("start_twist", p.start_twist);
-  } else {
-    visit("start_velocity", p.start_velocity);
-  }
-  if constexpr (!std::is_same_v<Kind, DmpParameters>) visit("start_error", p.start_error);
-}
-
-template <class Visitor, class Parameters>
-void visit_parameters(const Visitor& visit, Parameters& p) {
-  visit("duration", p.duration);
-  visit("start", p.start);
-  visit("goal", p.goal);
-  visit_start(visit, p);
-  visit("amplitude", p.amplitude);
-  visit("weights", p.weights);
-}
-
-template <class Parameters>
-Json write(const char* kind, const Parameters& parameters) {
+template <class Primitive>
+Json to_json(const Primitive& model) {
+  const auto& parameters = model.parameters();
   Json options = Json::object();
   visit_options(JsonWriter(options), parameters.options);
-  Json json{{"format", "dmpcpp"}, {"version", 1}, {"kind", kind}, {"options", std::move(options)}};
-  visit_parameters(JsonWriter(json), parameters);
-  if constexpr (!std::is_same_v<Parameters, DmpParameters>)
-    if (parameters.reference.rows() > 0) {  // otherwise older versions can read it
-      json["version"] = kVersion;
-      json["reference"] = to_rows(parameters.reference);
-    }
+  Json json{
+      {"format", "dmpcpp"}, {"version", 1}, {"kind", kind_of<Primitive>}, {"options", std::move(options)}};
+  visit_fields(parameters, JsonWriter(json));
+  visit_optional_fields(parameters, [&](const char* name, const RowMatrix& table) {
+    if (table.rows() == 0) return;  // so that older versions can read it
+    json["version"] = kVersion;
+    json[name] = to_rows(table);
+  });
   return json;
 }
 
-Json to_json(const Dmp& dmp) { return write("dmp", dmp.parameters()); }
-Json to_json(const OrientationDmp& dmp) { return write("orientation_dmp", dmp.parameters()); }
-Json to_json(const PoseDmp& dmp) { return write("pose_dmp", dmp.parameters()); }
-
-template <class Parameters>
-Parameters read(const Json& json) {
-  Parameters parameters;
+template <class Primitive>
+Primitive read(const Json& json) {
+  typename Primitive::Parameters parameters;
   visit_options(JsonReader(member(json, "options", "model"), "options", "options."), parameters.options);
   if (parameters.options.basis_count == 0)
     throw InvalidArgument("options.basis_count: 0, expected the number of kernels.");
-  visit_parameters(JsonReader(json, "model", ""), parameters);
-  if constexpr (!std::is_same_v<Parameters, DmpParameters>)
-    if (json.contains("reference")) parameters.reference = table_at(json["reference"], "reference");
-  return parameters;
+  const JsonReader reader(json, "model", "");
+  visit_fields(parameters, reader);
+  visit_optional_fields(parameters, [&](const char* name, RowMatrix& table) {
+    if (json.contains(name)) reader(name, table);
+  });
+  return Primitive(parameters);
+}
+
+/// The model of the alternative whose kind that is.
+template <class... Kinds>
+Model read_kind(const std::string& kind, const Json& json, std::variant<Kinds...>*) {
+  std::optional<Model> model;
+  std::string known;
+  const auto attempt = [&](auto* alternative) {
+    using Kind = std::remove_pointer_t<decltype(alternative)>;
+    known += (known.empty() ? "" : ", ") + std::string(kind_of<Kind>);
+    if (kind == kind_of<Kind>) model = read<Kind>(json);
+  };
+  (attempt(static_cast<Kinds*>(nullptr)), ...);
+  if (!model) throw InvalidArgument("kind: '" + kind + "' is unknown, expected one of " + known + ".");
+  return *model;
 }
 
 /// Refuses what a plain parse would take: repeated keys, deep nesting, too many values, lists or objects, and
@@ -188,10 +151,7 @@ Model model_from_json(const Json& json) {
                           std::to_string(kVersion) +
                           (version > kVersion ? ". The file was written by a newer dmpcpp: update." : "."));
   const std::string kind = text_at(member(json, "kind", "model"), "kind");
-  if (kind == "dmp") return Dmp(read<DmpParameters>(json));
-  if (kind == "orientation_dmp") return OrientationDmp(read<OrientationDmpParameters>(json));
-  if (kind == "pose_dmp") return PoseDmp(read<PoseDmpParameters>(json));
-  throw InvalidArgument("kind: '" + kind + "' is unknown, expected dmp, orientation_dmp or pose_dmp.");
+  return read_kind(kind, json, static_cast<Model*>(nullptr));
 }
 
 }  // namespace dmp::detail

@@ -45,20 +45,6 @@ Closeness closeness(const OrientationDemonstration& motion, const NoiseEstimate&
   return closeness(noise, 3, extent, kRounding);
 }
 
-/// At most so many of the times of a demonstration, the first and the last among them.
-std::vector<Index> some(Index count) {
-  const Index wanted = std::min(count, kMostTimes);
-  std::vector<Index> chosen;
-  for (Index k = 0; k < wanted; ++k) chosen.push_back(k * (count - 1) / (wanted - 1));
-  return chosen;
-}
-
-VectorXd times_at(const VectorXd& time, const std::vector<Index>& chosen) {
-  VectorXd times(static_cast<Index>(chosen.size()));
-  for (std::size_t k = 0; k < chosen.size(); ++k) times[static_cast<Index>(k)] = time[chosen[k]];
-  return times;
-}
-
 double root_of_mean(double squares, std::size_t count) {
   return std::sqrt(squares / static_cast<double>(count));
 }
@@ -83,6 +69,25 @@ double angle_of(const OrientationDemonstration& motion, const std::vector<Index>
 
 }  // namespace
 
+void share_noise(std::vector<Closeness>& parts) {
+  for (Closeness& part : parts)
+    for (const Closeness& other : parts)
+      if (&other != &part) part.tolerance = std::max(part.tolerance, share_left(other) * part.extent);
+}
+
+std::vector<Index> some(Index count) {
+  const Index wanted = std::min(count, kMostTimes);
+  std::vector<Index> chosen;
+  for (Index k = 0; k < wanted; ++k) chosen.push_back(k * (count - 1) / (wanted - 1));
+  return chosen;
+}
+
+VectorXd times_at(const VectorXd& time, const std::vector<Index>& chosen) {
+  VectorXd times(static_cast<Index>(chosen.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k) times[static_cast<Index>(k)] = time[chosen[k]];
+  return times;
+}
+
 Prepared<Demonstration> prepared(const Demonstration& given, Derivatives derivatives) {
   NoiseEstimate noise;
   const Demonstration motion = given.denoised(&noise);
@@ -101,38 +106,31 @@ Prepared<PoseDemonstration> prepared(const PoseDemonstration& given, Derivatives
   NoiseEstimate position, orientation;
   const PoseDemonstration cleaned = given.denoised(&position, &orientation);
   const PoseDemonstration& motion = derivatives == Derivatives::automatic ? cleaned : given;
-  Closeness first = closeness(motion.position(), position);
-  Closeness second = closeness(motion.orientation(), orientation);
-  // Where one part has noise, the other need not be closer to its extent than that one can be.
-  first.tolerance = std::max(first.tolerance, share_left(second) * first.extent);
-  second.tolerance = std::max(second.tolerance, share_left(first) * second.extent);
-  return {motion, {first, second}};
+  std::vector<Closeness> parts{closeness(motion.position(), position),
+                               closeness(motion.orientation(), orientation)};
+  share_noise(parts);
+  return {motion, parts};
 }
 
-double miss(const Dmp& model, const Prepared<Demonstration>& aim) {
-  const std::vector<Index> chosen = some(aim.motion.size());
-  const Trajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
-  return distance_of(aim.motion, chosen, again.position) / aim.parts[0].tolerance;
+void add_misses(std::vector<double>& misses, const Demonstration& motion, const std::vector<Index>& chosen,
+                const Trajectory& again) {
+  misses.push_back(distance_of(motion, chosen, again.position));
 }
 
-double miss(const OrientationDmp& model, const Prepared<OrientationDemonstration>& aim) {
-  const std::vector<Index> chosen = some(aim.motion.size());
-  const OrientationTrajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
-  return angle_of(aim.motion, chosen, [&](std::size_t k) { return again.rotation[k]; }) /
-         aim.parts[0].tolerance;
+void add_misses(std::vector<double>& misses, const OrientationDemonstration& motion,
+                const std::vector<Index>& chosen, const OrientationTrajectory& again) {
+  misses.push_back(angle_of(motion, chosen, [&](std::size_t k) { return again.rotation[k]; }));
 }
 
-double miss(const PoseDmp& model, const Prepared<PoseDemonstration>& aim) {
-  const std::vector<Index> chosen = some(aim.motion.size());
-  const PoseTrajectory again = model.rollout_at(times_at(aim.motion.time(), chosen));
+void add_misses(std::vector<double>& misses, const PoseDemonstration& motion,
+                const std::vector<Index>& chosen, const PoseTrajectory& again) {
   RowMatrix position(static_cast<Index>(chosen.size()), 3);
   for (std::size_t k = 0; k < chosen.size(); ++k)
     position.row(static_cast<Index>(k)) = again.pose[k].topRightCorner<3, 1>().transpose();
-  const double angle = angle_of(aim.motion.orientation(), chosen, [&](std::size_t k) -> Eigen::Matrix3d {
+  misses.push_back(distance_of(motion.position(), chosen, position));
+  misses.push_back(angle_of(motion.orientation(), chosen, [&](std::size_t k) -> Eigen::Matrix3d {
     return again.pose[k].topLeftCorner<3, 3>();
-  });
-  return std::max(distance_of(aim.motion.position(), chosen, position) / aim.parts[0].tolerance,
-                  angle / aim.parts[1].tolerance);
+  }));
 }
 
 DmpOptions with_regression(const DmpOptions& options) {

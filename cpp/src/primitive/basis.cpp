@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "base/text.hpp"
 #include "primitive/gaussian_place.hpp"
 
 namespace dmp {
@@ -61,6 +62,9 @@ GaussianBasis GaussianBasis::source(int count, double alpha_x) {
   const Eigen::VectorXd centers = basis.centers();
   basis.center_.assign(centers.data(), centers.data() + count);
   for (const double center : basis.center_) basis.width_.push_back(std::pow(count, 1.5) / (alpha_x * center));
+  if (!std::isfinite(basis.width_.front()))
+    throw InvalidArgument("alpha_x: " + detail::number(alpha_x) +
+                          ", expected a larger one: the kernels of the source have no finite width.");
   return basis;
 }
 
@@ -109,6 +113,17 @@ GaussianBasis::Window GaussianBasis::activations(double s, double* psi) const no
 
 double GaussianBasis::Window::factor() const noexcept {
   return std::exp(std::max(exponent, kSmallestExponent));
+}
+
+double GaussianBasis::gate(double s) const noexcept {
+  const double exponent = -alpha_x_ * s;
+  return exponent > kLeastPhase ? std::exp(exponent) : 0.0;
+}
+
+RowMatrix GaussianBasis::features(const Eigen::VectorXd& s) const {
+  RowMatrix table = activations(s, true);
+  for (Eigen::Index k = 0; k < s.size(); ++k) table.row(k) *= gate(s[k]);
+  return table;
 }
 
 RowMatrix GaussianBasis::activations(const Eigen::VectorXd& s, bool normalised) const {

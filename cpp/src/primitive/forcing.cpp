@@ -120,7 +120,8 @@ void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept { ev
 
 void ForcingTerm::evaluate_window(double s, double* psi, double* f) const noexcept {
   const GaussianBasis::Window window = basis_.proportional(s, psi);
-  weighted_mean(psi, window.count, weights_.data() + window.first * dimension(), dimension(), basis_.x(s), f);
+  weighted_mean(psi, window.count, weights_.data() + window.first * dimension(), dimension(), basis_.gate(s),
+                f);
 }
 
 RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {

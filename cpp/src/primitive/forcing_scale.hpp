@@ -14,6 +14,8 @@ class ForcingScale {
 
   /// displacement (d): goal - start of the run. No allocation.
   void set(const Eigen::Ref<const Eigen::VectorXd>& displacement) noexcept;
+  /// Whether apply leaves every f as it is.
+  bool is_one() const noexcept { return scaling_ == Scaling::none; }
   /// f (d) in place.
   void apply(double* f) const noexcept;
 

@@ -50,9 +50,4 @@ inline GaussianBasis::PhasePair GaussianBasis::pair(double s, double next, int m
           {-alpha_x_ * s > kLeastPhase ? result[2] : 0.0, -alpha_x_ * next > kLeastPhase ? result[3] : 0.0}};
 }
 
-inline double GaussianBasis::x(double s) const noexcept {
-  const double exponent = -alpha_x_ * s;
-  return exponent > kLeastPhase ? std::exp(exponent) : 0.0;
-}
-
 }  // namespace dmp

@@ -112,7 +112,7 @@ void NormalEquations::add(const ForcingTarget& target, Index first, double scale
     const GaussianBasis::Window window = basis_.proportional(target.s[k], block_.scratch.data());
     if (!block_.takes(window)) flush(!known);
     const double total = block_.scratch.head(window.count).sum();
-    const double x = std::exp(-basis_.alpha_x() * target.s[k]);
+    const double x = basis_.gate(target.s[k]);
     // Kernels are known up to a factor, which cancels wherever they are divided by their sum.
     const double weight = local_ ? share_[k] * window.factor() : share_[k] / total;
     block_.add(window, weight * x * x / total, weight * x * x, weight * x * scale,

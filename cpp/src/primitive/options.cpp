@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "primitive/option_fields.hpp"
 
 namespace dmp {
 namespace {
@@ -31,23 +32,18 @@ void require_at_most(double value, double most, const char* name) {
                           number(most) + ".");
 }
 
-template <class Enum>
-void require_enumerator(Enum value, Enum last, const char* name) {
-  if (static_cast<int>(value) < 0 || value > last)
+/// Throws InvalidArgument for an enumerator outside its enumeration; lets all else pass.
+struct EnumeratorCheck {
+  template <class Value>
+  void operator()(const char*, const Value&) const {}
+  template <class Enum>
+  void operator()(const char* name, Enum value, const detail::Names<Enum>& names) const {
+    for (const auto& [known, text] : names)
+      if (known == value) return;
     throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(static_cast<int>(value)) +
                           " is none of its enumerators.");
-}
-
-void require_enumerators(const DmpOptions& o) {
-  require_enumerator(o.kernels, Kernels::source, "kernels");
-  require_enumerator(o.regression, Regression::automatic, "regression");
-  require_enumerator(o.scaling, Scaling::rotation_dilation, "scaling");
-  require_enumerator(o.orientation_form, OrientationForm::turning, "orientation_form");
-  require_enumerator(o.log_branch, LogBranch::principal, "log_branch");
-  require_enumerator(o.derivatives, Derivatives::automatic, "derivatives");
-  require_enumerator(o.start, Start::rest, "start");
-  require_enumerator(o.integrator, Integrator::semi_implicit_euler, "integrator");
-}
+  }
+};
 
 void require_whole(int value, int most, const char* name, const char* of) {
   if (value < 1 || value > most)
@@ -55,17 +51,12 @@ void require_whole(int value, int most, const char* name, const char* of) {
                           std::to_string(most) + of + ".");
 }
 
-/// Every field, in the order of the declaration.
-auto fields(const DmpOptions& o) noexcept {
-  return std::tie(o.basis_count, o.alpha, o.beta, o.orientation_alpha, o.orientation_beta, o.alpha_x,
-                  o.kernels, o.overlap, o.regression, o.passes, o.ridge, o.scaling, o.orientation_form,
-                  o.log_branch, o.derivatives, o.start, o.integrator, o.force_after_end, o.goal_filter,
-                  o.tempo_filter, o.phase_stop);
-}
-
 }  // namespace
 
-bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept { return fields(a) == fields(b); }
+bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept {
+  return std::apply([&](const auto&... field) { return ((a.*field.second == b.*field.second) && ...); },
+                    detail::option_fields());
+}
 
 void DmpOptions::validate() const { resolved(); }
 
@@ -75,7 +66,7 @@ bool DmpOptions::automatic() const noexcept {
 
 DmpOptions DmpOptions::resolved() const {
   DmpOptions result = *this;
-  require_enumerators(*this);
+  detail::visit_options(EnumeratorCheck{}, *this);
   if (basis_count != 0) require_whole(basis_count, 100000, "basis_count", " kernels");
   require_whole(passes, 10000, "passes", "");
   if (orientation_form == OrientationForm::turning && scaling != Scaling::none)

@@ -11,7 +11,7 @@
 
 namespace dmp::detail {
 
-/// When a rollout is looked at.
+/// The times at which a rollout is sampled.
 struct Timetable {
   Eigen::VectorXd times;  ///< (T) s, increasing from 0 or later
   double dt;              ///< the step between all of them, or 0 if it is not one
@@ -37,7 +37,7 @@ inline void require_duration(double duration) {
 
 /// Steps a runner from one time to the next and calls record(k) at each.
 template <class Runner, class Record>
-void roll_out(Runner& runner, const Timetable& timetable, Record record) {
+void step_through(Runner& runner, const Timetable& timetable, Record record) {
   const Eigen::VectorXd& times = timetable.times;
   double now = 0.0;
   for (Eigen::Index k = 0; k < times.size(); ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dmp/coupling.hpp>
 #include <dmp/forcing.hpp>
 #include <dmp/options.hpp>
 #include <dmp/phase.hpp>
@@ -11,44 +12,65 @@
 #include <cmath>
 #include <utility>
 
-#include "primitive/position_motion.hpp"
+#include "primitive/product_system.hpp"
 
 namespace dmp::detail {
 
-/// Takes a motion (positions, orientation, or both) through the phase. What every run has in common stands
-/// here once: steps are divided so that none exceeds a part of the duration and none straddles its end, the
-/// forcing term is evaluated at the nodes of each, and the outputs change only while they are finite.
-template <class Motion>
+/// Takes the transformation system of a space through the phase. What every run has in common stands here
+/// once: steps are divided so that none exceeds a part of the duration and none straddles its end; the drive
+/// (the scaled forcing term and the coupling) is formed at the nodes of each; the outputs change only while
+/// they are finite.
+template <class Space>
 class Runner {
  public:
+  using PointArgument = typename Space::PointArgument;
+
   /// `forcing` must outlive the runner.
-  Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, Motion motion)
+  Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, const Ends<Space>& ends)
       : forcing_(&forcing),
         phase_(duration, options.alpha_x, options.tempo_filter, options.phase_stop),
-        motion_(std::move(motion)),
+        system_(options, ends),
         nodes_(RowMatrix::Zero(3, forcing.dimension())),
+        drive_(RowMatrix::Zero(3, forcing.dimension())),
+        coupling_value_(Eigen::VectorXd::Zero(forcing.dimension())),
         psi_(forcing.basis().window_capacity()),
         force_after_end_(options.force_after_end),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
+    coupling_state_.point = ends.start;
+    coupling_state_.goal = ends.goal;
+    coupling_state_.velocity = ends.z;
     publish();
   }
 
-  Motion& motion() noexcept { return motion_; }
-  const Motion& motion() const noexcept { return motion_; }
+  const System<Space>& system() const noexcept { return system_; }
   const Phase& phase() const noexcept { return phase_; }
   Status status() const noexcept { return status_; }
 
-  Status step(double dt) noexcept {
+  Status step(double dt, const Coupling<Space>* coupling = nullptr) noexcept {
     if (status_ == Status::not_finite) return status_;
     const double way = phase_.increment(dt);
     if (!(dt >= 0.0) || !(way <= kFarthest)) return Status::invalid_input;
+    coupling_ = coupling;
     advance(way);
     phase_.advance(dt, way);
-    if (!publish()) return status_ = Status::not_finite;
-    return status_ = phase_.s() >= 1.0 - kRounding ? Status::finished : Status::running;
+    status_ = !publish() ? Status::not_finite : ended() ? Status::finished : Status::running;
+    coupling_ = nullptr;
+    return status_;
   }
 
   /// Before the first step at once, later through the filter.
+  Status set_goal(PointArgument goal) noexcept {
+    if (at_start()) {
+      start_with_goal(goal);
+    } else {
+      system_.set_goal(goal);
+    }
+    return status_;
+  }
+  void start_with_goal(PointArgument goal) noexcept {
+    system_.start_with_goal(goal);
+    publish();
+  }
   Status set_duration(double duration) noexcept {
     const bool taken = phase_.set_duration(duration);
     if (taken && at_start()) {
@@ -57,27 +79,15 @@ class Runner {
     }
     return accepted(taken);
   }
-  bool at_start() const noexcept { return phase_.time() == 0.0; }
   Status set_tracking_error(double error) noexcept { return accepted(phase_.set_tracking_error(error)); }
   void pause() noexcept { phase_.pause(); }
   void resume() noexcept { phase_.resume(); }
-  /// The phase at its start; then put the motion there and call restart().
-  void reset_phase() noexcept { phase_.reset(); }
-  void restart() noexcept {
+  /// Begins anew at `point` with z, tau times the velocity.
+  Status restart(PointArgument point, typename Space::TangentArgument z) noexcept {
     phase_.reset();
+    system_.begin(point, z);
     evaluated_at_ = kNowhere;
-    status_ = publish() ? Status::running : Status::not_finite;
-  }
-
-  /// Outputs from the state as it is; false, and the last ones stay, if they are not finite.
-  bool publish() noexcept {
-    const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
-    if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
-    evaluated_at_ = on ? phase_.s() : kNowhere;
-    motion_.set_phase(phase_.s());
-    if (!motion_.look(phase_.speed(), phase_.speed_rate(), node(kEnd))) return false;
-    motion_.publish();
-    return true;
+    return status_ = publish() ? Status::running : Status::not_finite;
   }
 
  private:
@@ -90,7 +100,24 @@ class Runner {
     return std::max({options.alpha, *options.orientation_alpha, options.goal_filter});
   }
 
+  bool at_start() const noexcept { return phase_.time() == 0.0; }
+  bool ended() const noexcept { return phase_.s() >= 1.0 - kRounding; }
   Status accepted(bool accepted) const noexcept { return accepted ? status_ : Status::invalid_input; }
+
+  /// Outputs from the state as it is; false, and the last ones stay, if they are not finite.
+  bool publish() noexcept {
+    const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
+    if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
+    evaluated_at_ = on ? phase_.s() : kNowhere;
+    system_.set_phase(phase_.s());
+    if (coupling_ != nullptr) evaluate_coupling(phase_.s());
+    if (!system_.compute_outputs(phase_.speed(), phase_.speed_rate(), drive(kEnd))) return false;
+    system_.publish();
+    return true;
+  }
+
+  // The forcing term at the nodes of a step.
+
   /// Whether the last node holds the forcing term at s, but for rounding.
   bool evaluated(double s) const noexcept { return std::abs(s - evaluated_at_) < 1e-13; }
   double* node(Node which) noexcept { return nodes_.data() + row_[which] * nodes_.cols(); }
@@ -105,6 +132,35 @@ class Runner {
     evaluate(kMiddle, middle, on);
     evaluate(kEnd, end, on);
   }
+
+  // The drive: the forcing term, scaled for this run's start and goal, and the coupling.
+
+  /// Asks the coupling what it adds from here on.
+  [[gnu::noinline]] void evaluate_coupling(double s) noexcept {
+    system_.set_phase(s);
+    coupling_state_.phase = s;
+    coupling_state_.speed = phase_.speed();
+    coupling_state_.point = system_.point();
+    coupling_state_.goal = system_.goal();
+    system_.velocity(coupling_state_.speed, coupling_state_.velocity.data());
+    coupling_value_.setZero();
+    coupling_->add_to(coupling_value_.data(), coupling_value_.size(), coupling_state_);
+    system_.to_drive(coupling_value_.data());
+  }
+
+  [[gnu::always_inline]] const double* drive(Node which) noexcept {
+    return system_.unscaled() && coupling_ == nullptr ? node(which) : formed_drive(which);
+  }
+
+  [[gnu::noinline]] const double* formed_drive(Node which) noexcept {
+    double* const result = drive_.data() + which * drive_.cols();
+    std::copy_n(node(which), drive_.cols(), result);
+    system_.scale(result);
+    if (coupling_ != nullptr) Eigen::Map<Eigen::VectorXd>(result, coupling_value_.size()) += coupling_value_;
+    return result;
+  }
+
+  // The way that a step goes, in pieces.
 
   void advance(double way) noexcept {
     double s = phase_.s();
@@ -134,14 +190,19 @@ class Runner {
     }
     evaluate_way(s + 0.5 * piece, s + piece, on);
     evaluated_at_ = on ? s + piece : kNowhere;
-    motion_.advance(piece, {node(kStart), node(kMiddle), node(kEnd)});
+    if (coupling_ != nullptr) evaluate_coupling(s);
+    system_.advance(piece, {drive(kStart), drive(kMiddle), drive(kEnd)});
   }
 
   const ForcingTerm* forcing_;
   Phase phase_;
-  Motion motion_;
+  System<Space> system_;
   RowMatrix nodes_;
   std::array<Eigen::Index, 3> row_{0, 1, 2};  // of nodes_, by Node: the end of a step starts the next one
+  RowMatrix drive_;
+  const Coupling<Space>* coupling_ = nullptr;  // of the call that is under way
+  CouplingState<Space> coupling_state_;        // what the coupling is shown
+  Eigen::VectorXd coupling_value_;             // what it answered, as a drive
   Eigen::VectorXd psi_;
   double evaluated_at_ = kNowhere;  // the phase whose forcing stands in the last node
   bool force_after_end_;

@@ -23,7 +23,8 @@ class SpringDamper {
   void prepare(double sigma) noexcept;
 
   /// One axis: u and z after the step, from the forcing at its start, middle and end.
-  void advance(double& u, double& z, double f_start, double f_middle, double f_end) const noexcept {
+  [[gnu::always_inline]] void advance(double& u, double& z, double f_start, double f_middle,
+                                      double f_end) const noexcept {
     const Eigen::Array2d next = e_.col(0).array() * u + e_.col(1).array() * z + b_.col(0).array() * f_start +
                                 b_.col(1).array() * f_middle + b_.col(2).array() * f_end;
     const Eigen::Array2d state = flushed<Eigen::Array2d>(next);

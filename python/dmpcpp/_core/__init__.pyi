@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'FileError', 'FitReport', 'FollowOptions', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationForm', 'OrientationRun', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseRun', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'fit_forcing', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     @property
     def argument(self) -> typing.Any:
@@ -23,9 +23,9 @@ class FileError(OSError):
     pass
 class Trajectory:
     """
-    Positions over time: what Dmp.rollout returns.
+    A motion over time: what Dmp.rollout returns.
     """
-    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    def __getstate__(self) -> tuple:
         ...
     def __len__(self) -> int:
         ...
@@ -55,9 +55,9 @@ class Trajectory:
         """
 class OrientationTrajectory:
     """
-    Orientations over time: what OrientationDmp.rollout returns.
+    A motion over time: what OrientationDmp.rollout returns.
     """
-    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    def __getstate__(self) -> tuple:
         ...
     def __len__(self) -> int:
         ...
@@ -85,11 +85,58 @@ class OrientationTrajectory:
         """
         (T,) s
         """
+class PoseGripperTrajectory:
+    """
+    A motion over time: what PoseGripperDmp.rollout returns.
+    """
+    def __getstate__(self) -> tuple:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 6) the twist's rate, m/s^2 and rad/s^2
+        """
+    @property
+    def gripper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d)
+        """
+    @property
+    def gripper_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d) per s^2
+        """
+    @property
+    def gripper_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d) per s
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 4, 4) [R p; 0 1], body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
 class PoseTrajectory:
     """
-    Poses over time: what PoseDmp.rollout returns.
+    A motion over time: what PoseDmp.rollout returns.
     """
-    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    def __getstate__(self) -> tuple:
         ...
     def __len__(self) -> int:
         ...
@@ -369,6 +416,38 @@ class PoseDemonstration:
         """
         (T,) s, from 0
         """
+class PoseGripperDemonstration:
+    """
+    The pose of a tool and its gripper as they were recorded.
+    """
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gripper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m; gripper (T,) or (T, k): its opening, or the joints of a hand. Raises InvalidArgument naming the sample.
+        """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def gripper(self) -> Demonstration:
+        """
+        a Demonstration
+        """
+    @property
+    def pose(self) -> PoseDemonstration:
+        """
+        a PoseDemonstration
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s, from 0
+        """
 class Kernels(enum.Enum):
     """
     How the kernels lie over the phase.
@@ -474,6 +553,10 @@ class DmpOptions:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    def validate(self) -> None:
+        """
+        Raises InvalidArgument, naming the field, for one outside its range.
+        """
     @property
     def alpha(self) -> float:
         """
@@ -653,19 +736,233 @@ class Status(enum.Enum):
     @classmethod
     def __new__(cls, value):
         ...
+class FitReport:
+    """
+    How a model reproduces demonstrations. Columns: dimensions of a position; components of the rotation vector between the orientations; for poses three of each.
+    """
+    @property
+    def condition(self) -> float:
+        """
+        of the regression's matrix
+        """
+    @property
+    def evidence(self) -> list[list[NoiseEstimate]]:
+        """
+        what each demonstration shows of noise: a list of NoiseEstimate, of its positions, of its orientations, or of both
+        """
+    @property
+    def largest(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def largest_log(self) -> float:
+        """
+        rad, the largest |Log(Rg R^T)| on the way
+        """
+    @property
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) standard deviation found in the data
+        """
+    @property
+    def removed(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,) root of the mean square that smoothing took out; 0 unless it was asked for
+        """
+    @property
+    def rmse(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def suggested_basis_count(self) -> int:
+        """
+        the fewest of 10, 20, 40, .. 1280 kernels that reach the tolerance; 0: none does
+        """
+    @property
+    def warnings(self) -> list[str]:
+        ...
+class GaussianBasis:
+    """
+    Gaussian kernels over the phase.
+    """
+    @staticmethod
+    def equal_in_time(count: typing.SupportsInt | typing.SupportsIndex, alpha_x: typing.SupportsFloat | typing.SupportsIndex, overlap: typing.SupportsFloat | typing.SupportsIndex) -> GaussianBasis:
+        """
+        Kernels of one width in time; neighbours cross at exp(-overlap / 4).
+        """
+    @staticmethod
+    def source(count: typing.SupportsInt | typing.SupportsIndex, alpha_x: typing.SupportsFloat | typing.SupportsIndex) -> GaussianBasis:
+        """
+        Kernels in x = exp(-alpha_x s) by DeWolf's rule.
+        """
+    def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The kernels (T, N) at phases (T,); rows sum to 1 if normalised.
+        """
+    def features(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        What the forcing term is linear in (T, N): features(phase) @ weights is the forcing term.
+        """
+    @property
+    def alpha_x(self) -> float:
+        ...
+    @property
+    def centers(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,) in x
+        """
+    @property
+    def count(self) -> int:
+        """
+        N
+        """
+class ForcingTarget:
+    """
+    What a forcing term should be along one demonstration.
+    """
+    def __init__(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], value: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        """
+        phase (K,), increasing; value (K, dims); scale (dims,), 1 unless given.
+        """
+    @property
+    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K,)
+        """
+    @property
+    def scale(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (dims,): value = scale * (basis.features(phase) @ weights)
+        """
+    @property
+    def value(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, dims)
+        """
+class Spread:
+    """
+    Where demonstrations of one motion lie over the phase, each taken at t / duration.
+    """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, d, d) of one demonstration about the mean
+        """
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, d)
+        """
+    @property
+    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K,) 0 to 1
+        """
+class PoseSpread:
+    """
+    Where demonstrations of one motion lie over the phase, for poses.
+    """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, 6, 6) of position [m] and rotation vector from the mean [rad, world frame]
+        """
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, 4, 4)
+        """
+    @property
+    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K,) 0 to 1
+        """
+class DmpParameters:
+    """
+    All that a Dmp is: what a model file holds. Fields as keywords.
+    """
+    options: DmpOptions
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @amplitude.setter
+    def amplitude(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def duration(self) -> float:
+        ...
+    @duration.setter
+    def duration(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @goal.setter
+    def goal(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start.setter
+    def start(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start_velocity.setter
+    def start_velocity(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @weights.setter
+    def weights(self, arg1: typing.Any) -> None:
+        ...
+class TrajectoryBatch:
+    """
+    Many motions: what Dmp.rollout_each returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d) per s^2
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d)
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T) s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d) per s
+        """
 class Dmp:
     """
     A dynamic movement primitive for positions in R^d. Immutable.
     """
     @staticmethod
     @typing.overload
-    def fit(demonstration: Demonstration, options: DmpOptions | None = None, **kwargs) -> Dmp:
+    def fit(demonstration: Demonstration, options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> Dmp:
         """
-        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge").
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge"). `learner(basis, targets)` returns the weights (N, dims) in place of the options' regression.
         """
     @staticmethod
     @typing.overload
-    def fit(demonstrations: collections.abc.Sequence[Demonstration], options: DmpOptions | None = None, **kwargs) -> Dmp:
+    def fit(demonstrations: collections.abc.Sequence[Demonstration], options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> Dmp:
         ...
     @staticmethod
     @typing.overload
@@ -677,9 +974,16 @@ class Dmp:
     @typing.overload
     def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[Dmp]:
         """
-        The same for positions (M, T, d) on one time grid, times (T,) s.
+        The same for positions, (M, T, d), on one time grid, times (T,) s.
+        """
+    @staticmethod
+    def targets(demonstrations: collections.abc.Sequence[Demonstration], options: DmpOptions | None = None, **kwargs) -> list[ForcingTarget]:
+        """
+        What fit learns from: the forcing term along each demonstration, one ForcingTarget each.
         """
     def __getstate__(self) -> str:
+        ...
+    def __init__(self, parameters: DmpParameters) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -705,9 +1009,20 @@ class Dmp:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
+    def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Dmp:
+        """
+        The same model with other weights (N, dims).
+        """
+    @property
+    def basis(self) -> GaussianBasis:
+        """
+        The kernels of the forcing term.
+        """
     @property
     def dimension(self) -> int:
-        ...
+        """
+        axes of the motion
+        """
     @property
     def duration(self) -> float:
         """
@@ -724,6 +1039,11 @@ class Dmp:
         A copy: what the model was learned with.
         """
     @property
+    def parameters(self) -> DmpParameters:
+        """
+        A copy of all that the model is: change it and make another model.
+        """
+    @property
     def start(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (d,)
@@ -731,7 +1051,36 @@ class Dmp:
     @property
     def weights(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (N, dims) of the forcing term
+        (N, dims) of the forcing term; see with_weights
+        """
+class RunState:
+    """
+    What a coupling sees: the run at the start of an internal step.
+    """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        the one set last
+        """
+    @property
+    def phase(self) -> float:
+        """
+        s, 0 at the start, 1 at the end
+        """
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def speed(self) -> float:
+        """
+        ds/dt as it is now, 1/s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        per s; of rotations rad/s, world frame
         """
 class Run:
     """
@@ -763,9 +1112,9 @@ class Run:
         """
         Begins anew at position (d,) with velocity (d,) per s.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
         """
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -814,19 +1163,102 @@ class Run:
         """
         (d,) per s
         """
+class OrientationDmpParameters:
+    """
+    All that a OrientationDmp is: what a model file holds. Fields as keywords.
+    """
+    options: DmpOptions
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @amplitude.setter
+    def amplitude(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def duration(self) -> float:
+        ...
+    @duration.setter
+    def duration(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @goal.setter
+    def goal(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @reference.setter
+    def reference(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start.setter
+    def start(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start_error.setter
+    def start_error(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start_velocity.setter
+    def start_velocity(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @weights.setter
+    def weights(self, arg1: typing.Any) -> None:
+        ...
+class OrientationTrajectoryBatch:
+    """
+    Many motions: what OrientationDmp.rollout_each returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 3) rad/s^2, world frame
+        """
+    @property
+    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 3) rad/s, world frame
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 3, 3) body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T) s
+        """
 class OrientationDmp:
     """
     A dynamic movement primitive for orientations on SO(3). Immutable.
     """
     @staticmethod
     @typing.overload
-    def fit(demonstration: OrientationDemonstration, options: DmpOptions | None = None, **kwargs) -> OrientationDmp:
+    def fit(demonstration: OrientationDemonstration, options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> OrientationDmp:
         """
-        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge").
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge"). `learner(basis, targets)` returns the weights (N, dims) in place of the options' regression.
         """
     @staticmethod
     @typing.overload
-    def fit(demonstrations: collections.abc.Sequence[OrientationDemonstration], options: DmpOptions | None = None, **kwargs) -> OrientationDmp:
+    def fit(demonstrations: collections.abc.Sequence[OrientationDemonstration], options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> OrientationDmp:
         ...
     @staticmethod
     @typing.overload
@@ -838,9 +1270,16 @@ class OrientationDmp:
     @typing.overload
     def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[OrientationDmp]:
         """
-        The same for rotations (M, T, 3, 3) on one time grid, times (T,) s.
+        The same for rotations, (M, T, 3, 3), on one time grid, times (T,) s.
+        """
+    @staticmethod
+    def targets(demonstrations: collections.abc.Sequence[OrientationDemonstration], options: DmpOptions | None = None, **kwargs) -> list[ForcingTarget]:
+        """
+        What fit learns from: the forcing term along each demonstration, one ForcingTarget each.
         """
     def __getstate__(self) -> str:
+        ...
+    def __init__(self, parameters: OrientationDmpParameters) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -866,6 +1305,20 @@ class OrientationDmp:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
+    def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> OrientationDmp:
+        """
+        The same model with other weights (N, dims).
+        """
+    @property
+    def basis(self) -> GaussianBasis:
+        """
+        The kernels of the forcing term.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
     @property
     def duration(self) -> float:
         """
@@ -882,6 +1335,11 @@ class OrientationDmp:
         A copy: what the model was learned with.
         """
     @property
+    def parameters(self) -> OrientationDmpParameters:
+        """
+        A copy of all that the model is: change it and make another model.
+        """
+    @property
     def start(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (3, 3)
@@ -889,11 +1347,40 @@ class OrientationDmp:
     @property
     def weights(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (N, dims) of the forcing term
+        (N, dims) of the forcing term; see with_weights
+        """
+class OrientationRunState:
+    """
+    What a coupling sees: the run at the start of an internal step.
+    """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        the one set last
+        """
+    @property
+    def phase(self) -> float:
+        """
+        s, 0 at the start, 1 at the end
+        """
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+    @property
+    def speed(self) -> float:
+        """
+        ds/dt as it is now, 1/s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        per s; of rotations rad/s, world frame
         """
 class OrientationRun:
     """
-    One run of an OrientationDmp, for one control loop.
+    One run of a OrientationDmp, for one control loop.
     """
     def __copy__(self) -> OrientationRun:
         ...
@@ -921,9 +1408,9 @@ class OrientationRun:
         """
         Begins anew at rotation (3, 3) with angular velocity (3,) rad/s, world frame.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
         """
     @property
     def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -972,19 +1459,102 @@ class OrientationRun:
         """
         s since the start
         """
+class PoseDmpParameters:
+    """
+    All that a PoseDmp is: what a model file holds. Fields as keywords.
+    """
+    options: DmpOptions
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @amplitude.setter
+    def amplitude(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def duration(self) -> float:
+        ...
+    @duration.setter
+    def duration(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @goal.setter
+    def goal(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @reference.setter
+    def reference(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start.setter
+    def start(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start_error.setter
+    def start_error(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start_twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start_twist.setter
+    def start_twist(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @weights.setter
+    def weights(self, arg1: typing.Any) -> None:
+        ...
+class PoseTrajectoryBatch:
+    """
+    Many motions: what PoseDmp.rollout_each returns.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 6) the twist's rate, m/s^2 and rad/s^2
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 4, 4) [R p; 0 1], body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T) s
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
 class PoseDmp:
     """
     A dynamic movement primitive for poses [R p; 0 1], position and orientation in one phase. Immutable.
     """
     @staticmethod
     @typing.overload
-    def fit(demonstration: PoseDemonstration, options: DmpOptions | None = None, **kwargs) -> PoseDmp:
+    def fit(demonstration: PoseDemonstration, options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> PoseDmp:
         """
-        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge").
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge"). `learner(basis, targets)` returns the weights (N, dims) in place of the options' regression.
         """
     @staticmethod
     @typing.overload
-    def fit(demonstrations: collections.abc.Sequence[PoseDemonstration], options: DmpOptions | None = None, **kwargs) -> PoseDmp:
+    def fit(demonstrations: collections.abc.Sequence[PoseDemonstration], options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> PoseDmp:
         ...
     @staticmethod
     @typing.overload
@@ -996,9 +1566,16 @@ class PoseDmp:
     @typing.overload
     def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[PoseDmp]:
         """
-        The same for poses (M, T, 4, 4) on one time grid, times (T,) s.
+        The same for poses, (M, T, 4, 4), on one time grid, times (T,) s.
+        """
+    @staticmethod
+    def targets(demonstrations: collections.abc.Sequence[PoseDemonstration], options: DmpOptions | None = None, **kwargs) -> list[ForcingTarget]:
+        """
+        What fit learns from: the forcing term along each demonstration, one ForcingTarget each.
         """
     def __getstate__(self) -> str:
+        ...
+    def __init__(self, parameters: PoseDmpParameters) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1024,6 +1601,20 @@ class PoseDmp:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
+    def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseDmp:
+        """
+        The same model with other weights (N, dims).
+        """
+    @property
+    def basis(self) -> GaussianBasis:
+        """
+        The kernels of the forcing term.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
     @property
     def duration(self) -> float:
         """
@@ -1040,6 +1631,11 @@ class PoseDmp:
         A copy: what the model was learned with.
         """
     @property
+    def parameters(self) -> PoseDmpParameters:
+        """
+        A copy of all that the model is: change it and make another model.
+        """
+    @property
     def start(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (4, 4)
@@ -1047,7 +1643,36 @@ class PoseDmp:
     @property
     def weights(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (N, dims) of the forcing term
+        (N, dims) of the forcing term; see with_weights
+        """
+class PoseRunState:
+    """
+    What a coupling sees: the run at the start of an internal step.
+    """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        the one set last
+        """
+    @property
+    def phase(self) -> float:
+        """
+        s, 0 at the start, 1 at the end
+        """
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4)
+        """
+    @property
+    def speed(self) -> float:
+        """
+        ds/dt as it is now, 1/s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        per s; of rotations rad/s, world frame
         """
 class PoseRun:
     """
@@ -1079,9 +1704,9 @@ class PoseRun:
         """
         Begins anew at pose (4, 4) with twist (6,) m/s, rad/s.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
         """
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1140,61 +1765,66 @@ class PoseRun:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
         """
-class TrajectoryBatch:
+class PoseGripperDmpParameters:
     """
-    Many motions: what Dmp.rollout_each returns.
+    All that a PoseGripperDmp is: what a model file holds. Fields as keywords.
     """
-    def __len__(self) -> int:
+    options: DmpOptions
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
-    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T, d) per s^2
-        """
-    @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T, d)
-        """
-    @property
-    def time(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T) s
-        """
-    @property
-    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T, d) per s
-        """
-class OrientationTrajectoryBatch:
-    """
-    Many motions: what OrientationDmp.rollout_each returns.
-    """
-    def __len__(self) -> int:
+    def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @amplitude.setter
+    def amplitude(self, arg1: typing.Any) -> None:
         ...
     @property
-    def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T, 3) rad/s^2, world frame
-        """
+    def displacement(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @displacement.setter
+    def displacement(self, arg1: typing.Any) -> None:
+        ...
     @property
-    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T, 3) rad/s, world frame
-        """
+    def duration(self) -> float:
+        ...
+    @duration.setter
+    def duration(self, arg1: typing.Any) -> None:
+        ...
     @property
-    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T, 3, 3) body -> world
-        """
+    def goal(self) -> tuple:
+        ...
+    @goal.setter
+    def goal(self, arg1: typing.Any) -> None:
+        ...
     @property
-    def time(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (M, T) s
-        """
-class PoseTrajectoryBatch:
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @reference.setter
+    def reference(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start(self) -> tuple:
+        ...
+    @start.setter
+    def start(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def start_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @start_velocity.setter
+    def start_velocity(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @weights.setter
+    def weights(self, arg1: typing.Any) -> None:
+        ...
+class PoseGripperTrajectoryBatch:
     """
-    Many motions: what PoseDmp.rollout_each returns.
+    Many motions: what PoseGripperDmp.rollout_each returns.
     """
     def __len__(self) -> int:
         ...
@@ -1202,6 +1832,21 @@ class PoseTrajectoryBatch:
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (M, T, 6) the twist's rate, m/s^2 and rad/s^2
+        """
+    @property
+    def gripper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d)
+        """
+    @property
+    def gripper_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d) per s^2
+        """
+    @property
+    def gripper_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (M, T, d) per s
         """
     @property
     def pose(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1218,6 +1863,239 @@ class PoseTrajectoryBatch:
         """
         (M, T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
         """
+class PoseGripperDmp:
+    """
+    A dynamic movement primitive for the pose of a tool and its gripper, in one phase. Immutable.
+    """
+    @staticmethod
+    @typing.overload
+    def fit(demonstration: PoseGripperDemonstration, options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> PoseGripperDmp:
+        """
+        Learns from a demonstration, or from a list of them together. `options` is a DmpOptions; its fields may be given as keywords too: fit(demonstration, basis_count=50, regression="ridge"). `learner(basis, targets)` returns the weights (N, dims) in place of the options' regression.
+        """
+    @staticmethod
+    @typing.overload
+    def fit(demonstrations: collections.abc.Sequence[PoseGripperDemonstration], options: DmpOptions | None = None, *, learner: collections.abc.Callable | None = None, **kwargs) -> PoseGripperDmp:
+        ...
+    @staticmethod
+    @typing.overload
+    def fit_each(demonstrations: collections.abc.Sequence[PoseGripperDemonstration], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[PoseGripperDmp]:
+        """
+        One model for each demonstration, the same as fit gives. threads: how many to use, 0 for as many as the machine runs at once. Options as in fit.
+        """
+    @staticmethod
+    @typing.overload
+    def fit_each(times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], paths: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], options: DmpOptions | None = None, threads: typing.SupportsInt | typing.SupportsIndex = 1, **kwargs) -> list[PoseGripperDmp]:
+        """
+        The same for paths, a tuple (poses (M, T, 4, 4), grippers (M, T, k)), on one time grid, times (T,) s.
+        """
+    @staticmethod
+    def targets(demonstrations: collections.abc.Sequence[PoseGripperDemonstration], options: DmpOptions | None = None, **kwargs) -> list[ForcingTarget]:
+        """
+        What fit learns from: the forcing term along each demonstration, one ForcingTarget each.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, parameters: PoseGripperDmpParameters) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def activations(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normalised: bool = False) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The kernels (T, N) at phases (T,); rows sum to 1 if normalised.
+        """
+    def forcing(self, phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
+        """
+    def rollout(self, goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseGripperTrajectory:
+        """
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseGripperTrajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    def rollout_each(self, goals: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> PoseGripperTrajectoryBatch:
+        """
+        One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
+        """
+    def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseGripperDmp:
+        """
+        The same model with other weights (N, dims).
+        """
+    @property
+    def basis(self) -> GaussianBasis:
+        """
+        The kernels of the forcing term.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        tau of the demonstration, s
+        """
+    @property
+    def goal(self) -> tuple:
+        """
+        a tuple (pose (4, 4), gripper (k,))
+        """
+    @property
+    def options(self) -> DmpOptions:
+        """
+        A copy: what the model was learned with.
+        """
+    @property
+    def parameters(self) -> PoseGripperDmpParameters:
+        """
+        A copy of all that the model is: change it and make another model.
+        """
+    @property
+    def start(self) -> tuple:
+        """
+        a tuple (pose (4, 4), gripper (k,))
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N, dims) of the forcing term; see with_weights
+        """
+class PoseGripperRunState:
+    """
+    What a coupling sees: the run at the start of an internal step.
+    """
+    @property
+    def goal(self) -> tuple:
+        """
+        the one set last
+        """
+    @property
+    def phase(self) -> float:
+        """
+        s, 0 at the start, 1 at the end
+        """
+    @property
+    def point(self) -> tuple:
+        """
+        a tuple (pose (4, 4), gripper (k,))
+        """
+    @property
+    def speed(self) -> float:
+        """
+        ds/dt as it is now, 1/s
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        per s; of rotations rad/s, world frame
+        """
+class PoseGripperRun:
+    """
+    One run of a PoseGripperDmp, for one control loop.
+    """
+    def __copy__(self) -> PoseGripperRun:
+        ...
+    def __deepcopy__(self, memo: dict) -> PoseGripperRun:
+        ...
+    def __init__(self, dmp: PoseGripperDmp) -> None:
+        ...
+    def pause(self) -> None:
+        """
+        Comes to rest on the path, through options.tempo_filter.
+        """
+    def reset(self) -> None:
+        """
+        Begins anew at the demonstrated start, with the goal and duration that were set last.
+        """
+    def resume(self) -> None:
+        """
+        Goes on from there.
+        """
+    def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
+        """
+    def start_from(self, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        Begins anew at (pose, gripper) with velocity (6 + k,): twist, gripper per s.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        """
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) m/s^2, rad/s^2, world frame
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, of the whole motion from now on; the path stays the same
+        """
+    @duration.setter
+    def duration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def goal(self) -> tuple:
+        """
+        a tuple (pose (4, 4), gripper (k,)) the goal to go to from now on, approached through the goal filter
+        """
+    @goal.setter
+    def goal(self, arg1: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]]) -> None:
+        ...
+    @property
+    def gripper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k,)
+        """
+    @property
+    def gripper_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k,) per s
+        """
+    @property
+    def paused(self) -> bool:
+        ...
+    @property
+    def phase(self) -> float:
+        """
+        0 at the start, 1 at the end
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4) [R p; 0 1]
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+    @property
+    def status(self) -> Status:
+        ...
+    @property
+    def time(self) -> float:
+        """
+        s since the start
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
 class Alignment:
     """
     Which samples of two motions belong together.
@@ -1233,91 +2111,6 @@ class Alignment:
     def path(self) -> numpy.typing.NDArray[numpy.int64]:
         """
         (K, 2) indices into the first and the second, from the first of both to the last of both; each row goes on by one sample in one motion or in both
-        """
-class FitReport:
-    """
-    How a model reproduces demonstrations. Columns: dimensions of a position; components of the rotation vector between the orientations; for poses three of each.
-    """
-    @property
-    def condition(self) -> float:
-        """
-        of the regression's matrix
-        """
-    @property
-    def evidence(self) -> list[list[NoiseEstimate]]:
-        """
-        what each demonstration shows of noise: a list of NoiseEstimate, of its positions, of its orientations, or of both
-        """
-    @property
-    def largest(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (d,)
-        """
-    @property
-    def largest_log(self) -> float:
-        """
-        rad, the largest |Log(Rg R^T)| on the way
-        """
-    @property
-    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (d,) standard deviation found in the data
-        """
-    @property
-    def removed(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (d,) root of the mean square that smoothing took out; 0 unless it was asked for
-        """
-    @property
-    def rmse(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (d,)
-        """
-    @property
-    def suggested_basis_count(self) -> int:
-        """
-        the fewest of 10, 20, 40, .. 1280 kernels that reach the tolerance; 0: none does
-        """
-    @property
-    def warnings(self) -> list[str]:
-        ...
-class Spread:
-    """
-    Where demonstrations of one motion lie over the phase, each taken at t / duration.
-    """
-    @property
-    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (K, d, d) of one demonstration about the mean
-        """
-    @property
-    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (K, d)
-        """
-    @property
-    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (K,) 0 to 1
-        """
-class PoseSpread:
-    """
-    Where demonstrations of one motion lie over the phase, for poses.
-    """
-    @property
-    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (K, 6, 6) of position [m] and rotation vector from the mean [rad, world frame]
-        """
-    @property
-    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (K, 4, 4)
-        """
-    @property
-    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (K,) 0 to 1
         """
 class LimitSource(enum.Enum):
     """
@@ -2038,6 +2831,11 @@ def assess(model: PoseDmp, demonstrations: collections.abc.Sequence[PoseDemonstr
     How a model reproduces a list of demonstrations, and what was found in them. `position` and `angle` (rad) are the RMSE that the suggested number of kernels shall reach.
     """
 @typing.overload
+def assess(model: PoseGripperDmp, demonstrations: collections.abc.Sequence[PoseGripperDemonstration], position: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087) -> FitReport:
+    """
+    How a model reproduces a list of demonstrations, and what was found in them. `position` and `angle` (rad) are the RMSE that the suggested number of kernels shall reach.
+    """
+@typing.overload
 def average(models: collections.abc.Sequence[Dmp]) -> Dmp:
     """
     The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
@@ -2052,6 +2850,11 @@ def average(models: collections.abc.Sequence[PoseDmp]) -> PoseDmp:
     """
     The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
     """
+@typing.overload
+def average(models: collections.abc.Sequence[PoseGripperDmp]) -> PoseGripperDmp:
+    """
+    The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
+    """
 def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], effort_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, *, arm: Arm | None = None, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = [0.0, 0.0, -9.81]) -> float:
     """
     The smallest factor on the duration with which the joints' spline stays within the limits.
@@ -2060,6 +2863,10 @@ def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[nu
     [N m], for which the arm is needed, at the samples, by KDL's inverse dynamics with `gravity` (3,) [m/s^2] in the base
     frame. 0 if nothing moves. Raises InvalidArgument for limits of other sizes or signs, or an effort with which the arm
     cannot stand still.
+    """
+def fit_forcing(basis: GaussianBasis, targets: collections.abc.Sequence[ForcingTarget], options: DmpOptions | None = None, **kwargs) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The weights (N, dims) of one forcing term for all targets together, by the options' regression.
     """
 def frechet(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
     """
@@ -2071,7 +2878,7 @@ def from_json(text: str) -> typing.Any:
     """
 def load(path: os.PathLike | str | bytes) -> typing.Any:
     """
-    The Dmp, OrientationDmp or PoseDmp in a file, bit for bit as it was saved. Raises FileError, or InvalidArgument naming the place.
+    The model in a file (a Dmp, OrientationDmp, PoseDmp or PoseGripperDmp), bit for bit as it was saved. Raises FileError, or InvalidArgument naming the place.
     """
 @typing.overload
 def save(model: Dmp, path: os.PathLike | str | bytes) -> None:
@@ -2085,6 +2892,11 @@ def save(model: OrientationDmp, path: os.PathLike | str | bytes) -> None:
     """
 @typing.overload
 def save(model: PoseDmp, path: os.PathLike | str | bytes) -> None:
+    """
+    Writes a model file (JSON), whole or not at all. Raises FileError.
+    """
+@typing.overload
+def save(model: PoseGripperDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
@@ -2123,6 +2935,11 @@ def to_json(model: OrientationDmp) -> str:
     """
 @typing.overload
 def to_json(model: PoseDmp) -> str:
+    """
+    The text of a model file.
+    """
+@typing.overload
+def to_json(model: PoseGripperDmp) -> str:
     """
     The text of a model file.
     """

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <dmp/coupling.hpp>
+#include <dmp/export.hpp>
+#include <dmp/primitive.hpp>
+#include <dmp/realtime.hpp>
+#include <dmp/status.hpp>
+
+#include <memory>
+
+namespace dmp {
+
+/// One run of a Primitive, for one control loop. The constructor takes all the memory; copies are
+/// independent. Run, OrientationRun, PoseRun and PoseGripperRun add the names of the outputs.
+template <class Space>
+class DMP_EXPORT Stepper {
+ public:
+  using PointArgument = typename Space::PointArgument;
+  using TangentArgument = typename Space::TangentArgument;
+
+  explicit Stepper(const Primitive<Space>& model);
+  Stepper(const Stepper& other);
+  Stepper(Stepper&& other) noexcept;
+  Stepper& operator=(const Stepper& other);
+  Stepper& operator=(Stepper&& other) noexcept;
+  ~Stepper();
+
+  /// Moves on by dt seconds, 0 to 10 durations (else invalid_input), in internal steps of at most 0.005 of
+  /// the duration, or of half a duration over the largest of alpha and goal_filter where that is less.
+  Status step(double dt) noexcept DMP_REALTIME;
+  /// The same with a coupling term, called in each internal step; see Coupling.
+  Status step(double dt, const Coupling<Space>& coupling) noexcept DMP_REALTIME;
+  /// The goal to go to from now on, approached through DmpOptions::goal_filter; before the first step it
+  /// counts at once. Refused (invalid_input) for a wrong size, numbers that are not finite, or what is no
+  /// rotation (so3::is_rotation; the nearest one is taken) or no pose. Like start_from, it takes no memory
+  /// for a vector; of an expression or a row of a matrix Eigen makes a copy before the call, which does.
+  Status set_goal(PointArgument goal) noexcept DMP_REALTIME;
+  /// The duration (s) of the whole motion from now on; the path stays the same. Before the first step at
+  /// once, later through DmpOptions::tempo_filter.
+  Status set_duration(double duration) noexcept DMP_REALTIME;
+  /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
+  Status set_tracking_error(double error) noexcept DMP_REALTIME;
+  /// Comes to rest on the path, and goes on from there; both through DmpOptions::tempo_filter.
+  void pause() noexcept DMP_REALTIME;
+  void resume() noexcept DMP_REALTIME;
+  bool paused() const noexcept DMP_REALTIME;
+  /// Begins anew at a point with a velocity (d, per s; rotations in rad/s, world frame), at the goal and
+  /// duration that were set last.
+  Status start_from(PointArgument point, TangentArgument velocity) noexcept DMP_REALTIME;
+  /// Begins anew at the demonstrated start, with the goal and duration that were set last. A pause goes on.
+  void reset() noexcept DMP_REALTIME;
+
+  typename Space::Output output() const noexcept DMP_REALTIME;   ///< where the run is, the last finite one
+  typename Space::PointView goal() const noexcept DMP_REALTIME;  ///< the one set last
+  double time() const noexcept DMP_REALTIME;                     ///< s since the start
+  double phase() const noexcept DMP_REALTIME;                    ///< 0 at the start, 1 at the end
+  double duration() const noexcept DMP_REALTIME;                 ///< s, the one set last
+  Status status() const noexcept DMP_REALTIME;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace dmp

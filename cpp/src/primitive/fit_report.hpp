@@ -1,0 +1,140 @@
+#pragma once
+
+#include <dmp/fit_report.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "primitive/primitive_bodies.hpp"
+
+namespace dmp {
+
+namespace detail {
+
+/// Throws InvalidArgument unless both are positive.
+void require_tolerance(const Tolerance& tolerance);
+/// A motion that ends near its start can hardly be scaled by (goal - start): a new goal multiplies it.
+void warn_of_scaling(FitReport& report, const Eigen::VectorXd& displacement,
+                     const Eigen::VectorXd& amplitude);
+/// Everything else that a user should know; `excess`: how far the rmse goes beyond the tolerance, 1 is just
+/// within; `sizes`: samples of each demonstration.
+void warn(FitReport& report, const std::vector<Eigen::Index>& sizes, const DmpOptions& options,
+          double excess);
+
+/// Row by row how far a run of the unchanged model is from a demonstration, with the same ends, at its
+/// samples.
+template <class Space>
+RowMatrix deviation(const Primitive<Space>& model, const typename Space::Demonstration& demonstration) {
+  const Ends<Space> ends = example_of<Space>(demonstration, model.options()).ends;
+  Stepper<Space> run(model);
+  run.set_duration(demonstration.duration());
+  run.start_from(ends.start, Eigen::VectorXd(ends.z / demonstration.duration()));
+  run.set_goal(ends.goal);
+  RowMatrix away(demonstration.size(), model.dimension());
+  for (Eigen::Index k = 0; k < demonstration.size(); ++k) {
+    run.step(k > 0 ? demonstration.time()[k] - demonstration.time()[k - 1] : demonstration.time()[0]);
+    Geometry<Space>::deviation(run.output(), demonstration, k, away.row(k).data());
+  }
+  return away;
+}
+
+template <class Space>
+Eigen::VectorXd rmse_of(const Primitive<Space>& model,
+                        const std::vector<typename Space::Demonstration>& demonstrations,
+                        Eigen::VectorXd* largest = nullptr) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(model.dimension());
+  Eigen::VectorXd most = squares;
+  double count = 0.0;
+  for (const auto& demonstration : demonstrations) {
+    const RowMatrix away = deviation(model, demonstration);
+    most = most.cwiseMax(away.cwiseAbs().colwise().maxCoeff().transpose());
+    squares += away.colwise().squaredNorm().transpose();
+    count += static_cast<double>(away.rows());
+  }
+  if (largest) *largest = most;
+  return (squares / count).cwiseSqrt();
+}
+
+template <class Space>
+double excess_of(const Primitive<Space>& model, const Eigen::VectorXd& rmse, const Tolerance& tolerance) {
+  return Geometry<Space>::excess(model.start(), rmse, tolerance);
+}
+
+/// The fewest of kFewestKernels, doubled up to kMostKernels, that reach the tolerance; 0: none does.
+template <class Space>
+int suggested(const DmpOptions& options, const std::vector<typename Space::Demonstration>& demonstrations,
+              const Tolerance& tolerance) {
+  constexpr int kFewestKernels = 10;
+  constexpr int kMostKernels = 1280;
+  DmpOptions changed = options;
+  if (options.derivatives == Derivatives::smooth) changed.derivatives = Derivatives::automatic;
+  for (int count = kFewestKernels; count <= kMostKernels; count *= 2) {
+    changed.basis_count = count;
+    const auto tried = Primitive<Space>::fit(demonstrations, changed);
+    if (excess_of(tried, rmse_of(tried, demonstrations), tolerance) <= 1.0) return count;
+  }
+  return 0;
+}
+
+/// Throws InvalidArgument unless there are demonstrations, all of the model's dimension.
+template <class Space>
+void require_fitting(const Primitive<Space>& model,
+                     const std::vector<typename Space::Demonstration>& demonstrations) {
+  if (demonstrations.empty()) throw InvalidArgument("demonstrations: none, expected at least one.");
+  for (const auto& demonstration : demonstrations)
+    if (dimension_of<Space>(demonstration) != model.dimension())
+      throw InvalidArgument("demonstrations: " + std::to_string(dimension_of<Space>(demonstration)) +
+                            " dimensions, expected " + std::to_string(model.dimension()) +
+                            " as in the model.");
+}
+
+/// What was found in the demonstrations themselves.
+template <class Space>
+void inspect_demonstrations(FitReport& report,
+                            const std::vector<typename Space::Demonstration>& demonstrations,
+                            const DmpOptions& options) {
+  const double share = 1.0 / static_cast<double>(demonstrations.size());
+  report.noise = Eigen::VectorXd::Zero(report.rmse.size());
+  report.removed = report.noise;
+  for (const auto& demonstration : demonstrations) {
+    report.evidence.emplace_back();
+    Eigen::Index first = 0;
+    for (const auto& [noise, columns] : Geometry<Space>::noise_of(demonstration)) {
+      report.noise.segment(first, columns).array() += share * noise.sigma;
+      if (options.derivatives == Derivatives::smooth)
+        report.removed.segment(first, columns).array() +=
+            share * noise.removed / std::sqrt(static_cast<double>(columns));
+      report.evidence.back().push_back(noise);
+      first += columns;
+    }
+    report.largest_log = std::max(report.largest_log, Geometry<Space>::largest_log(demonstration, options));
+  }
+}
+
+}  // namespace detail
+
+template <class Space>
+FitReport assess(const Primitive<Space>& model,
+                 const std::vector<typename Space::Demonstration>& demonstrations,
+                 const Tolerance& tolerance) {
+  detail::require_fitting(model, demonstrations);
+  detail::require_tolerance(tolerance);
+  const DmpOptions& options = model.options();
+  FitReport report;
+  report.rmse = detail::rmse_of(model, demonstrations, &report.largest);
+  detail::inspect_demonstrations<Space>(report, demonstrations, options);
+  report.condition = regression_condition(options);
+  report.suggested_basis_count = detail::suggested<Space>(options, demonstrations, tolerance);
+  const auto ends = detail::Geometry<Space>::ends_of(model.parameters());
+  if (options.scaling == Scaling::per_axis)
+    detail::warn_of_scaling(report, ends.displacement, ends.amplitude);
+  std::vector<Eigen::Index> sizes;
+  for (const auto& demonstration : demonstrations) sizes.push_back(demonstration.size());
+  detail::warn(report, sizes, options, detail::excess_of(model, report.rmse, tolerance));
+  return report;
+}
+
+}  // namespace dmp

@@ -1,0 +1,269 @@
+#pragma once
+
+#include <dmp/primitive.hpp>
+#include <dmp/stepper.hpp>
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "primitive/automatic_fit.hpp"
+#include "primitive/fitting.hpp"
+#include "primitive/forcing_fit.hpp"
+#include "primitive/parameters.hpp"
+#include "primitive/product_space.hpp"
+#include "primitive/rollout.hpp"
+#include "primitive/runner.hpp"
+
+namespace dmp {
+
+namespace detail {
+
+/// Checked, with rotations made exact and options decided.
+template <class Space>
+typename Space::Parameters checked(const typename Space::Parameters& given) {
+  using G = Geometry<Space>;
+  const Eigen::Index dimension = dimension_of<Space>(given.start);
+  if (dimension == 0) throw InvalidArgument("start: empty, expected at least one dimension.");
+  typename Space::Parameters parameters = given;
+  parameters.options = settled(given.options, given.weights);
+  visit_fields(given, FieldCheck<G>(parameters.options.basis_count, given.start, dimension));
+  parameters.start = G::projected(given.start);
+  parameters.goal = G::projected(given.goal);
+  const Ends<Space> ends = G::ends_of(parameters);
+  if (ends.reference.rows() > 0 && rotations_in<Space>() != 1)
+    throw InvalidArgument("reference: given, expected none for motions of other than one rotation.");
+  parameters.options = G::settle(parameters.options, ends);
+  return parameters;
+}
+
+/// The weights that a learner of the user's own finds.
+inline RowMatrix learned(const Learner& learner, const DmpOptions& options,
+                         const std::vector<ForcingTarget>& targets) {
+  const GaussianBasis basis = basis_of(options);
+  RowMatrix weights = learner(basis, targets);
+  require_weights(weights, basis.count(), targets.front().value.cols(), "learner: weights");
+  return weights;
+}
+
+template <class Space>
+Primitive<Space> fit(const Demonstrations<Space>& demonstrations, const DmpOptions& options,
+                     const Learner& learner) {
+  if (options.automatic()) {
+    require_alike<Space>(demonstrations);
+    options.validate();
+    return fit_automatically<Primitive<Space>>(
+        demonstrations, options, [&](const Demonstrations<Space>& prepared, const DmpOptions& stated) {
+          return fit<Space>(prepared, stated, learner);
+        });
+  }
+  LearningTask<Space> task = task_of<Space>(demonstrations, options);
+  const DmpOptions& decided = task.parameters.options;
+  task.parameters.weights =
+      learner
+          ? learned(learner, decided, task.targets)
+          : ForcingFit(basis_of(decided), decided, task.targets.front().value.cols()).weights(task.targets);
+  return Primitive<Space>(task.parameters);
+}
+
+template <class Space>
+Runner<Space> runner_of(const Primitive<Space>& model) {
+  return Runner<Space>(model.options(), model.forcing(), model.duration(),
+                       Geometry<Space>::ends_of(model.parameters()));
+}
+
+template <class Space>
+typename Space::Trajectory roll_out(const Primitive<Space>& model, const Timetable& timetable,
+                                    const std::optional<typename Space::Point>& goal,
+                                    std::optional<double> duration) {
+  using G = Geometry<Space>;
+  Runner<Space> runner = runner_of(model);
+  if (duration) {
+    require_duration(*duration);
+    runner.set_duration(*duration);
+  }
+  if (goal) {
+    G::require(*goal, model.start(), "goal");
+    runner.start_with_goal(*goal);
+  }
+  typename Space::Trajectory result = G::room_for(timetable.times, model.start());
+  step_through(runner, timetable, [&](Eigen::Index k) { G::record(result, k, runner.system().output()); });
+  return result;
+}
+
+}  // namespace detail
+
+// Primitive
+
+template <class Space>
+struct Primitive<Space>::Data {
+  Parameters parameters;
+  ForcingTerm forcing;
+};
+
+template <class Space>
+Primitive<Space> Primitive<Space>::fit(const Demonstration& demonstration, const DmpOptions& options,
+                                       const Learner& learner) {
+  return detail::fit<Space>({&demonstration}, options, learner);
+}
+
+template <class Space>
+Primitive<Space> Primitive<Space>::fit(const std::vector<Demonstration>& demonstrations,
+                                       const DmpOptions& options, const Learner& learner) {
+  return detail::fit<Space>(detail::pointers_to(demonstrations), options, learner);
+}
+
+template <class Space>
+std::vector<ForcingTarget> Primitive<Space>::targets(const std::vector<Demonstration>& demonstrations,
+                                                     const DmpOptions& options) {
+  const auto pointers = detail::pointers_to(demonstrations);
+  if (!options.automatic()) return detail::task_of<Space>(pointers, options).targets;
+  const DmpOptions stated = detail::fit<Space>(pointers, options, {}).options();
+  return detail::task_of<Space>(pointers, stated).targets;
+}
+
+template <class Space>
+Primitive<Space>::Primitive(const Parameters& parameters) {
+  Parameters known = detail::checked<Space>(parameters);
+  ForcingTerm forcing(detail::basis_of(known.options), known.weights);
+  data_ = std::make_shared<const Data>(Data{std::move(known), std::move(forcing)});
+}
+
+template <class Space>
+Primitive<Space> Primitive<Space>::with_weights(const RowMatrix& weights) const {
+  Parameters changed = parameters();
+  changed.weights = weights;
+  return Primitive(changed);
+}
+
+template <class Space>
+const typename Space::Parameters& Primitive<Space>::parameters() const noexcept {
+  return data_->parameters;
+}
+template <class Space>
+const ForcingTerm& Primitive<Space>::forcing() const noexcept {
+  return data_->forcing;
+}
+template <class Space>
+Eigen::Index Primitive<Space>::dimension() const noexcept {
+  return detail::dimension_of<Space>(start());
+}
+
+template <class Space>
+typename Space::Trajectory Primitive<Space>::rollout(const std::optional<Point>& goal,
+                                                     std::optional<double> duration, double dt) const {
+  if (duration) detail::require_duration(*duration);
+  return detail::roll_out(*this, detail::every(dt, duration.value_or(this->duration())), goal, duration);
+}
+
+template <class Space>
+typename Space::Trajectory Primitive<Space>::rollout_at(const Eigen::VectorXd& times,
+                                                        const std::optional<Point>& goal,
+                                                        std::optional<double> duration) const {
+  return detail::roll_out(*this, {times, 0.0}, goal, duration);
+}
+
+// Stepper
+
+template <class Space>
+struct Stepper<Space>::State {
+  Primitive<Space> model;
+  detail::Runner<Space> runner;
+  Eigen::VectorXd start_z;  // demonstrated
+  Eigen::VectorXd z;        // scratch for a start velocity
+};
+
+template <class Space>
+Stepper<Space>::Stepper(const Primitive<Space>& model)
+    : state_(std::make_unique<State>(State{model, detail::runner_of(model),
+                                           detail::Geometry<Space>::ends_of(model.parameters()).z,
+                                           Eigen::VectorXd::Zero(model.dimension())})) {}
+template <class Space>
+Stepper<Space>::Stepper(const Stepper& other) : state_(std::make_unique<State>(*other.state_)) {}
+template <class Space>
+Stepper<Space>::Stepper(Stepper&& other) noexcept = default;
+template <class Space>
+Stepper<Space>& Stepper<Space>::operator=(const Stepper& other) {
+  if (this != &other) state_ = std::make_unique<State>(*other.state_);
+  return *this;
+}
+template <class Space>
+Stepper<Space>& Stepper<Space>::operator=(Stepper&& other) noexcept = default;
+template <class Space>
+Stepper<Space>::~Stepper() = default;
+
+template <class Space>
+Status Stepper<Space>::step(double dt) noexcept {
+  return state_->runner.step(dt);
+}
+template <class Space>
+Status Stepper<Space>::step(double dt, const Coupling<Space>& coupling) noexcept {
+  return state_->runner.step(dt, &coupling);
+}
+
+template <class Space>
+Status Stepper<Space>::set_goal(PointArgument goal) noexcept {
+  if (!detail::Geometry<Space>::accepts(goal, state_->model.start())) return Status::invalid_input;
+  return state_->runner.set_goal(goal);
+}
+template <class Space>
+Status Stepper<Space>::set_duration(double duration) noexcept {
+  return state_->runner.set_duration(duration);
+}
+template <class Space>
+Status Stepper<Space>::set_tracking_error(double error) noexcept {
+  return state_->runner.set_tracking_error(error);
+}
+template <class Space>
+void Stepper<Space>::pause() noexcept {
+  state_->runner.pause();
+}
+template <class Space>
+void Stepper<Space>::resume() noexcept {
+  state_->runner.resume();
+}
+template <class Space>
+bool Stepper<Space>::paused() const noexcept {
+  return state_->runner.phase().paused();
+}
+
+template <class Space>
+Status Stepper<Space>::start_from(PointArgument point, TangentArgument velocity) noexcept {
+  const bool fits = velocity.size() == state_->z.size() && velocity.allFinite();
+  if (!fits || !detail::Geometry<Space>::accepts(point, state_->model.start())) return Status::invalid_input;
+  state_->z = duration() * velocity;
+  return state_->runner.restart(point, state_->z);
+}
+
+template <class Space>
+void Stepper<Space>::reset() noexcept {
+  state_->runner.restart(state_->model.start(), state_->start_z);
+}
+
+template <class Space>
+typename Space::Output Stepper<Space>::output() const noexcept {
+  return state_->runner.system().output();
+}
+template <class Space>
+typename Space::PointView Stepper<Space>::goal() const noexcept {
+  return state_->runner.system().goal();
+}
+template <class Space>
+double Stepper<Space>::time() const noexcept {
+  return state_->runner.phase().time();
+}
+template <class Space>
+double Stepper<Space>::phase() const noexcept {
+  return state_->runner.phase().s();
+}
+template <class Space>
+double Stepper<Space>::duration() const noexcept {
+  return state_->runner.phase().duration();
+}
+template <class Space>
+Status Stepper<Space>::status() const noexcept {
+  return state_->runner.status();
+}
+
+}  // namespace dmp

@@ -1,0 +1,293 @@
+#include "primitive/rotation_system.hpp"
+
+#include <dmp/so3.hpp>
+
+#include <cmath>
+
+#include "geometry/exponential_rates.hpp"
+#include "geometry/flush.hpp"
+#include "geometry/pose.hpp"
+
+namespace dmp::detail {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// J_l(u)^-1 v up to the order that a fourth-order step needs; u is the turn within the step.
+Vector3d small_inverse_jacobian(const Vector3d& u, const Vector3d& v) noexcept {
+  const Vector3d uv = u.cross(v);
+  return v - 0.5 * uv + u.cross(uv) / 12.0;
+}
+
+/// Back to length 1 to first order: the steps leave it by rounding only.
+void renormalise(Quaterniond& q) noexcept {
+  q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
+  q.coeffs() = flushed<Eigen::Array4d>(q.coeffs());  // on the way to the identity
+}
+
+}  // namespace
+
+RotationSystem::RotationSystem(const DmpOptions& options, const Ends<RotationSpace>& ends)
+    : integrator_(options.integrator),
+      form_(options.orientation_form),
+      branch_(options.log_branch),
+      spring_(*options.orientation_alpha, *options.orientation_beta),
+      scale_(options.scaling, ends.displacement, ends.amplitude),
+      goal_(options.goal_filter, unit_quaternion(ends.goal)),
+      start_(unit_quaternion(ends.start)),
+      model_error_(ends.displacement),
+      displacement_(ends.displacement),
+      q_(start_),
+      eta_(ends.z),
+      e_(ends.displacement),
+      outputs_{q_, Vector3d::Zero(), Vector3d::Zero()} {
+  scale_.set(displacement_);
+  follow_error();
+  if (form_ != OrientationForm::turning) return;
+  DmpOptions of_p = options;
+  of_p.alpha = *options.orientation_alpha;
+  of_p.beta = options.orientation_beta;
+  const TurningReference reference(ends.reference);
+  const VectorXd zero = VectorXd::Zero(3);
+  turning_.emplace(Turning{reference, VectorSystem(of_p, {zero, zero, zero, zero, zero, {}}),
+                           reference.at(0.0).turn.conjugate(), reference.at(1.0).turn.conjugate()});
+  set_turning_goal(true);
+  begin_turning(q_, eta_);
+}
+
+/// p = Log(R Q^-1), p' = J_l(p)^-1 eta: Q stands still at the start.
+void RotationSystem::begin_turning(const Quaterniond& rotation, const Vector3d& eta) noexcept {
+  const Vector3d p = so3::log(Quaterniond(rotation * turning_->first));
+  const Vector3d z = so3::left_jacobian_inverse(p) * eta;
+  turning_->p.begin(p, z);
+}
+
+/// The goal of p, on the branch of the present one; back to the principal one where that leads far around.
+void RotationSystem::set_turning_goal(bool at_once) noexcept {
+  constexpr double kFarthest = 4.0;  // rad
+  const Quaterniond turn = goal_.target() * turning_->last;
+  const Vector3d present = turning_->p.goal();
+  Vector3d goal = at_once ? so3::log(turn) : so3::lifted_log(turn, present);
+  if (goal.norm() > kFarthest) goal = so3::log(turn);
+  if (at_once) return turning_->p.start_with_goal(goal);
+  turning_->p.set_goal(goal);
+}
+
+Vector3d RotationSystem::error(const Quaterniond& goal, const Quaterniond& q) const noexcept {
+  const Quaterniond turn = goal * q.conjugate();
+  return branch_ == LogBranch::lifted ? so3::lifted_log(turn, e_) : so3::log(turn);
+}
+
+void RotationSystem::begin(const Eigen::Matrix3d& rotation, RotationSpace::TangentArgument eta) noexcept {
+  if (turning_) {
+    set_turning_goal(true);
+    return begin_turning(unit_quaternion(rotation), eta);
+  }
+  start_ = unit_quaternion(rotation);
+  q_ = start_;
+  eta_ = eta;
+  e_ = model_error_;  // the branch to start on
+  displacement_ = model_error_;
+  jump_to_goal();
+}
+
+void RotationSystem::set_goal(const Eigen::Matrix3d& goal) noexcept {
+  goal_.set(unit_quaternion(goal));
+  if (turning_) return set_turning_goal(false);
+  if (goal_.settled()) jump_to_goal();
+}
+
+void RotationSystem::start_with_goal(const Eigen::Matrix3d& goal) noexcept {
+  goal_.set(unit_quaternion(goal));
+  if (turning_) return set_turning_goal(true);
+  jump_to_goal();
+}
+
+void RotationSystem::jump_to_goal() noexcept {
+  goal_.jump();
+  follow_goal();
+  rescale();
+}
+
+/// The scale follows the goal as filtered: the drive does not jump.
+void RotationSystem::rescale() noexcept {
+  if (unscaled()) return;
+  const Quaterniond turn = goal_.goal() * start_.conjugate();
+  displacement_ = branch_ == LogBranch::lifted ? so3::lifted_log(turn, displacement_) : so3::log(turn);
+  scale_.set(displacement_);
+}
+
+void RotationSystem::follow_goal() noexcept {
+  e_ = error(goal_.goal(), q_);
+  follow_error();
+}
+
+/// What the log-linear form goes by, from the error and the velocity.
+void RotationSystem::follow_error() noexcept {
+  if (form_ != OrientationForm::log_linear) return;
+  z_ = so3::left_jacobian_inverse(-e_) * eta_;
+  turn_ = so3::exp_quaternion(-e_);
+}
+
+/// p'' for an angular acceleration in the world frame, but for terms of the velocity.
+void RotationSystem::to_drive(double* tangent) const noexcept {
+  if (form_ == OrientationForm::ude) return;
+  const Vector3d p = turning_ ? Vector3d(turning_->p.point()) : Vector3d(-e_);
+  Eigen::Map<Vector3d> c(tangent);
+  c = so3::left_jacobian_inverse(p) * Vector3d(c);
+}
+
+Vector3d RotationSystem::acceleration(const Vector3d& e, const Vector3d& eta,
+                                      const double* drive) const noexcept {
+  return spring_.stiffness() * e - spring_.alpha() * eta + Vector3d(drive[0], drive[1], drive[2]);
+}
+
+void RotationSystem::advance(double step, const Nodes& drive) noexcept {
+  if (turning_) return turning_->p.advance(step, drive);
+  if (integrator_ == Integrator::semi_implicit_euler) {
+    advance_euler(step, drive.end);
+  } else if (form_ == OrientationForm::log_linear) {
+    advance_log_linear(step, drive);
+  } else {
+    advance_ude(step, drive);
+  }
+  renormalise(q_);
+  if (goal_.settled()) return;
+  rescale();
+  if (goal_.settle()) jump_to_goal();
+}
+
+/// The Runge-Kutta-Munthe-Kaas method of fourth order: R = Exp(u) R_n with ud = J_l(u)^-1 eta, so that R
+/// stays on SO(3) (Munthe-Kaas 1998, BIT 38).
+void RotationSystem::advance_ude(double step, const Nodes& drive) noexcept {
+  const double half = 0.5 * step;
+  const Quaterniond goal_middle = goal_.settled() ? goal_.goal() : goal_.after(half);
+  const Quaterniond goal_end = goal_.settled() ? goal_.goal() : goal_.after(step);
+
+  const Vector3d v1 = eta_;
+  const Vector3d a1 = acceleration(e_, eta_, drive.start);
+
+  const Vector3d u2 = half * v1;
+  const Vector3d eta2 = eta_ + half * a1;
+  const Vector3d v2 = small_inverse_jacobian(u2, eta2);
+  const Vector3d a2 = acceleration(error(goal_middle, so3::exp_quaternion(u2) * q_), eta2, drive.middle);
+
+  const Vector3d u3 = half * v2;
+  const Vector3d eta3 = eta_ + half * a2;
+  const Vector3d v3 = small_inverse_jacobian(u3, eta3);
+  const Vector3d a3 = acceleration(error(goal_middle, so3::exp_quaternion(u3) * q_), eta3, drive.middle);
+
+  const Vector3d u4 = step * v3;
+  const Vector3d eta4 = eta_ + step * a3;
+  const Vector3d v4 = small_inverse_jacobian(u4, eta4);
+  const Vector3d a4 = acceleration(error(goal_end, so3::exp_quaternion(u4) * q_), eta4, drive.end);
+
+  q_ = so3::exp_quaternion(step / 6.0 * (v1 + 2.0 * (v2 + v3) + v4)) * q_;
+  eta_ += step / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+  eta_ = flushed<Eigen::Array3d>(eta_);
+  if (!goal_.settled()) goal_.move_to(goal_end);
+  e_ = error(goal_end, q_);
+}
+
+/// Within a step of the linear forms the goal stands still; R and omega do not jump.
+void RotationSystem::advance_goal(double step) noexcept {
+  if (goal_.settled()) return;
+  goal_.advance(goal_.left_after(step));
+  follow_goal();
+}
+
+/// p = -e obeys the linear equation of positions with the goal 0, which has an exact step.
+void RotationSystem::advance_log_linear(double step, const Nodes& drive) noexcept {
+  advance_goal(step);
+  spring_.prepare(step);
+  Vector3d p = -e_;
+  for (int d = 0; d < 3; ++d) spring_.advance(p[d], z_[d], drive.start[d], drive.middle[d], drive.end[d]);
+  turn_to(p);
+}
+
+/// R = Exp(p) Rg, after a step of the log-linear form.
+void RotationSystem::turn_to(const Vector3d& p) noexcept {
+  e_ = -p;
+  turn_ = so3::exp_quaternion(p);
+  q_ = turn_ * goal_.goal();
+  if (!goal_.settled()) eta_ = ExponentialRates(p, turn_).velocity(z_);  // what the next goal finds
+}
+
+void RotationSystem::advance_euler(double step, const double* drive) noexcept {
+  advance_goal(step);
+  if (form_ == OrientationForm::log_linear) {
+    z_ += step * acceleration(e_, z_, drive);
+    z_ = flushed<Eigen::Array3d>(z_);
+    return turn_to(flushed<Eigen::Array3d>(step * z_ - e_));
+  }
+  eta_ += step * acceleration(e_, eta_, drive);
+  eta_ = flushed<Eigen::Array3d>(eta_);
+  q_ = so3::exp_quaternion(step * eta_) * q_;
+  e_ = error(goal_.goal(), q_);
+}
+
+bool RotationSystem::compute_outputs(double speed, double speed_rate, const double* drive) noexcept {
+  Vector3d change;
+  if (turning_) {
+    change = follow_turning(drive);
+  } else if (form_ == OrientationForm::log_linear) {
+    const ExponentialRates rates(-e_, turn_);
+    eta_ = rates.velocity(z_);
+    change = rates.acceleration(z_, acceleration(e_, z_, drive));
+  } else {
+    change = acceleration(e_, eta_, drive);
+  }
+  next_.angular_velocity = eta_ * speed;
+  next_.angular_acceleration = change * (speed * speed) + eta_ * speed_rate;
+  return q_.coeffs().allFinite() && next_.angular_velocity.allFinite() &&
+         next_.angular_acceleration.allFinite();
+}
+
+/// R, eta = J_l p' + Exp(p) omega_Q and its rate, omega_Q that of the reference.
+Vector3d RotationSystem::follow_turning(const double* drive) noexcept {
+  VectorSystem& system = turning_->p;
+  system.compute_outputs(1.0, 0.0, drive);
+  system.publish();
+  const Vector3d p = system.output().position;
+  const Vector3d v = system.output().velocity;
+  const Vector3d a = system.output().acceleration;
+  const TurningReference::State with = turning_->reference.at(phase_);
+  turn_ = so3::exp_quaternion(p);
+  const ExponentialRates rates(p, turn_);
+  const Vector3d own = rates.velocity(v);
+  const Vector3d along = turn_ * with.velocity;
+  eta_ = own + along;
+  q_ = turn_ * with.turn;
+  renormalise(q_);
+  return rates.acceleration(v, a) + turn_ * with.acceleration + own.cross(along);
+}
+
+void RotationSystem::publish() noexcept {
+  outputs_.quaternion = q_;
+  outputs_.angular_velocity = next_.angular_velocity;
+  outputs_.angular_acceleration = next_.angular_acceleration;
+}
+
+Eigen::Matrix3d RotationSystem::point() const noexcept {
+  if (!turning_) return q_.toRotationMatrix();
+  const Quaterniond turn = so3::exp_quaternion(Vector3d(turning_->p.point()));
+  return (turn * turning_->reference.at(phase_).turn).toRotationMatrix();
+}
+
+Vector3d RotationSystem::eta() const noexcept {
+  if (form_ == OrientationForm::ude) return eta_;
+  if (!turning_) return ExponentialRates(-e_, turn_).velocity(z_);
+  const Vector3d p = turning_->p.point();
+  const Quaterniond turn = so3::exp_quaternion(p);
+  Vector3d v;
+  turning_->p.velocity(1.0, v.data());
+  return ExponentialRates(p, turn).velocity(v) + turn * turning_->reference.at(phase_).velocity;
+}
+
+void RotationSystem::velocity(double speed, double* out) const noexcept {
+  Vector3d::Map(out) = eta() * speed;
+}
+
+}  // namespace dmp::detail

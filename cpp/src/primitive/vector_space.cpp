@@ -1,0 +1,110 @@
+#include <dmp/error.hpp>
+
+#include <optional>
+#include <utility>
+
+#include "primitive/learning.hpp"
+#include "primitive/parameters.hpp"
+#include "primitive/space.hpp"
+
+namespace dmp::detail {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using VectorGeometry = Geometry<VectorSpace>;
+
+namespace {
+
+Trajectory sampled(const Demonstration& demonstration, const DmpOptions& options) {
+  if (options.derivatives != Derivatives::gradient)
+    return demonstration.at(fit_times(demonstration.time(), options));
+  const VectorXd& time = demonstration.time();
+  const RowMatrix velocity = gradient(time, demonstration.position());
+  return {time, demonstration.position(), velocity, gradient(time, velocity)};
+}
+
+}  // namespace
+
+void VectorGeometry::require(const VectorXd& point, const VectorXd& like, const std::string& name) {
+  require_finite(point, like.size(), name);
+}
+
+VectorXd VectorGeometry::mean(const std::vector<VectorXd>& points) {
+  const double share = 1.0 / static_cast<double>(points.size());
+  VectorXd mean = VectorXd::Zero(points.front().size());
+  for (const VectorXd& point : points) mean += share * point;
+  return mean;
+}
+
+VectorXd VectorGeometry::displacement(const VectorXd& start, const VectorXd& goal, const VectorXd&,
+                                      const DmpOptions&) {
+  return goal - start;
+}
+
+Ends<VectorSpace> VectorGeometry::ends_of(const DmpParameters& p) {
+  return {p.start, p.goal, p.duration * p.start_velocity, p.goal - p.start, p.amplitude, {}};
+}
+
+void VectorGeometry::set_ends(DmpParameters& p, const Ends<VectorSpace>& ends) {
+  p.start = ends.start;
+  p.goal = ends.goal;
+  p.start_velocity = ends.z / p.duration;
+  p.amplitude = ends.amplitude;
+}
+
+Example<VectorSpace> VectorGeometry::example_of(const Demonstration& given, const DmpOptions& options,
+                                                const RowMatrix&) {
+  const std::optional<Demonstration> smoothed =
+      options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
+  const Demonstration& demonstration = smoothed ? *smoothed : given;
+  Trajectory motion = sampled(demonstration, options);
+  const double tau = demonstration.duration();
+  const RowMatrix& position = demonstration.position();
+  const VectorXd start = position.row(0);
+  const VectorXd goal = position.row(demonstration.size() - 1);
+  const VectorXd range = position.colwise().maxCoeff() - position.colwise().minCoeff();
+  const auto to_goal = (-motion.position).rowwise() + goal.transpose();
+  Example<VectorSpace> example{{start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}};
+  example.target = {
+      motion.time / tau,
+      forcing_of(tau, options.alpha, *options.beta, std::move(motion.acceleration), to_goal, motion.velocity),
+      VectorXd::Ones(start.size())};
+  return example;
+}
+
+Trajectory VectorGeometry::room_for(const VectorXd& times, const VectorXd& point) {
+  const RowMatrix room(times.size(), point.size());
+  return {times, room, room, room};
+}
+
+void VectorGeometry::record(Trajectory& trajectory, Index k, VectorSpace::Output output) {
+  trajectory.position.row(k) = output.position;
+  trajectory.velocity.row(k) = output.velocity;
+  trajectory.acceleration.row(k) = output.acceleration;
+}
+
+void VectorGeometry::deviation(VectorSpace::Output output, const Demonstration& demonstration, Index k,
+                               double* away) {
+  Eigen::Map<Eigen::RowVectorXd>(away, demonstration.dimension()) =
+      output.position.transpose() - demonstration.position().row(k);
+}
+
+Noises VectorGeometry::noise_of(const Demonstration& demonstration) {
+  NoiseEstimate found;
+  demonstration.denoised(&found);
+  return {{found, demonstration.dimension()}};
+}
+
+std::vector<VectorXd> VectorGeometry::points_at(const Demonstration& demonstration, const VectorXd& times) {
+  const RowMatrix position = demonstration.at(times).position;
+  const auto rows = position.rowwise();
+  return {rows.begin(), rows.end()};
+}
+
+RowMatrix VectorGeometry::path_of(const std::vector<VectorXd>& points) {
+  RowMatrix path(static_cast<Index>(points.size()), points.front().size());
+  for (std::size_t k = 0; k < points.size(); ++k) path.row(static_cast<Index>(k)) = points[k];
+  return path;
+}
+
+}  // namespace dmp::detail

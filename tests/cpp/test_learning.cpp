@@ -1,0 +1,91 @@
+// The steps of learning are open: targets of demonstrations, a learner of the user's own, a model of weights.
+#include <doctest/doctest.h>
+#include <dmp/error.hpp>
+#include <dmp/pose_dmp.hpp>
+
+#include <string>
+
+#include "motions.hpp"
+
+using namespace dmp;
+using namespace motions;
+
+namespace {
+
+template <class Call>
+std::string message_of(Call call) {
+  try {
+    call();
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("the built-in regression as a learner gives the same model, to the last bit") {
+  DmpOptions options;
+  options.basis_count = 30;
+  options.derivatives = Derivatives::interpolate;
+  for (const Regression regression : {Regression::lwr, Regression::ridge}) {
+    options.regression = regression;
+    const Learner learner = [&](const GaussianBasis& basis, const std::vector<ForcingTarget>& targets) {
+      return fit_forcing(basis, targets, options.resolved());
+    };
+    const std::vector<PoseDemonstration> demonstrations{pose(100, 1.0), pose(120, 1.3)};
+    const PoseDmp own = PoseDmp::fit(demonstrations, options, learner);
+    CHECK(own.parameters().weights == PoseDmp::fit(demonstrations, options).parameters().weights);
+  }
+}
+
+TEST_CASE("targets are what the forcing term of a fit becomes") {
+  DmpOptions options;
+  options.basis_count = 100;
+  options.regression = Regression::ridge;
+  options.derivatives = Derivatives::interpolate;
+  const std::vector<Demonstration> demonstrations{helix(300, 2.0, .1, .2, 2)};
+  const Dmp model = Dmp::fit(demonstrations, options);
+  const std::vector<ForcingTarget> targets = Dmp::targets(demonstrations, options);
+  REQUIRE(targets.size() == 1);
+  const RowMatrix learned = model.forcing().evaluate(targets[0].s);
+  CHECK((learned - targets[0].value).cwiseAbs().maxCoeff() < 1e-3 * targets[0].value.cwiseAbs().maxCoeff());
+  CHECK((model.forcing().basis().features(targets[0].s) * model.parameters().weights - learned)
+            .cwiseAbs()
+            .maxCoeff() < 1e-10);
+}
+
+TEST_CASE("targets of demonstrations with other ends carry the scale that a joint fit divides by") {
+  DmpOptions options;
+  options.scaling = Scaling::per_axis_relative;
+  const Demonstration near = reach(100, 1.0);
+  const Demonstration far = near.with(2.0 * near.position());
+  const auto targets = Dmp::targets({near, far}, options);
+  for (int d = 0; d < 3; ++d) {
+    CHECK(targets[0].scale[d] == doctest::Approx(1.0 / 1.5));
+    CHECK(targets[1].scale[d] == doctest::Approx(2.0 / 1.5));
+  }
+}
+
+TEST_CASE("a model with other weights keeps all else, and its motion is linear in them") {
+  const Dmp model = Dmp::fit(helix(300, 2.0, .1, .2, 2));
+  const Dmp none = model.with_weights(0.0 * model.parameters().weights);
+  const Dmp half = model.with_weights(0.5 * model.parameters().weights);
+  CHECK(half.goal() == model.goal());
+  CHECK(half.options() == model.options());
+  const RowMatrix middle = 0.5 * (model.rollout().position + none.rollout().position);
+  CHECK((half.rollout().position - middle).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("weights of another size are refused where they come from") {
+  DmpOptions options;
+  options.basis_count = 100;
+  const Dmp model = Dmp::fit(reach(100, 1.0), options);
+  CHECK(message_of([&] { model.with_weights(RowMatrix::Zero(99, 3)); }) ==
+        "weights: 99 x 3, expected 100 x 3 (kernels x axes).");
+  const Learner wrong = [](const GaussianBasis&, const std::vector<ForcingTarget>&) {
+    return RowMatrix(RowMatrix::Zero(3, 2));
+  };
+  CHECK(message_of([&] { Dmp::fit(reach(100, 1.0), options, wrong); }) ==
+        "learner: weights: 3 x 2, expected 100 x 3 (kernels x axes).");
+}
