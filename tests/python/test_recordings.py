@@ -174,8 +174,8 @@ def test_fifteen_clips_ship_with_pybullet_and_an_unknown_name_lists_them(clips):
 
 
 def test_without_pybullet_the_error_says_what_to_install(monkeypatch):
-    monkeypatch.setattr("dmpcpp.recordings._formats.deepmimic.find_spec", lambda name: None)
-    with pytest.raises(MissingDependency, match=r'pip install "dmpcpp\[sim\]"'):
+    monkeypatch.setattr("dmpcpp._pybullet_data.find", lambda: None)
+    with pytest.raises(MissingDependency, match=r'dmpcpp fetch.*pip install "dmpcpp\[bullet\]"'):
         recordings.clip("dance_b")
 
 

@@ -20,9 +20,9 @@ from pathlib import Path
 
 from dmpcpp._notes import Note
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.recordings._formats.arrays import read_arrays as read_arrays
 from dmpcpp.recordings._formats.clips import clip_names, clip_path
 from dmpcpp.recordings._markers import Markers
+from dmpcpp.recordings._numpy_files import read_arrays as read_arrays
 from dmpcpp.recordings._reader import Reader
 from dmpcpp.recordings._recording import MIN_SAMPLES as MIN_SAMPLES
 from dmpcpp.recordings._recording import Axis as Axis

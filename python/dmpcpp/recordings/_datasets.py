@@ -6,12 +6,42 @@ from collections.abc import Sequence
 from importlib import import_module
 from types import ModuleType
 
+import numpy as np
+
 from dmpcpp.errors import InvalidArgument, MissingDependency, NotStated
 
-__all__ = ["LARGEST", "chosen_episode", "needed"]
+__all__ = ["LARGEST", "Allowance", "chosen_episode", "needed"]
 
 LARGEST = 256 * 1024 * 1024
-"""Bytes of one array; no motion of a hand needs more, and a hostile file may claim more than the machine has."""
+"""Bytes in memory of all arrays of one recording; a hand's motion needs no more, and a hostile file may claim any."""
+
+
+class Allowance:
+    """The bytes that the arrays of one file may still take in memory, all together: `LARGEST` at first."""
+
+    def __init__(self) -> None:
+        """Begin with all of it."""
+        self.left = LARGEST
+        self._counted: set[str] = set()
+
+    def take(self, name: str, shape: Sequence[int], kind: np.dtype) -> None:
+        """Count an array that is about to be read, once; numbers become float64, whatever they are in the file.
+
+        Raises
+        ------
+        InvalidArgument
+            The array, with those before, needs more than is left.
+        """
+        if name in self._counted:
+            return
+        size = int(np.prod([int(n) for n in shape], dtype=object)) * max(kind.itemsize, 8)
+        if size > self.left:
+            raise InvalidArgument(
+                f"{name}: {size} bytes in memory, expected at most {LARGEST} with the other arrays of the recording. "
+                "Cut the file into shorter recordings."
+            )
+        self.left -= size
+        self._counted.add(name)
 
 
 def needed(module: str, what: str) -> ModuleType:

@@ -6,8 +6,10 @@ The number of columns never decides what an array means: names, or the caller, d
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 
 import numpy as np
 
@@ -19,7 +21,7 @@ from dmpcpp.recordings._pose_columns import check_last_row, pose
 from dmpcpp.recordings._representation import ANGLES, CELLS, NUMBERED, QUATERNION, SIX, VECTOR
 from dmpcpp.recordings._statement import Stated
 
-__all__ = ["Source", "Sources", "poses_of", "read_source", "sources_in", "stated_source"]
+__all__ = ["Source", "Sources", "nearest", "poses_of", "read_source", "short_names", "sources_in", "stated_source"]
 
 Shape = tuple[int, ...]
 Getter = Callable[[str], Array]
@@ -30,7 +32,7 @@ _TURN = re.compile(
     r"rot_?6d|eulers?|rpy|rotations?|rot|rot_?mat(?:rix)?|orientations?|ori|q|R)",
     re.IGNORECASE,
 )
-_PLAIN = ("", "pose", "poses")
+_TURN_SHAPES = ((3,), (4,), (6,), (9,), (3, 3))
 _ORIGIN = (3, 7, 11)  # of a matrix row by row
 
 
@@ -49,22 +51,54 @@ def sources_in(shapes: Mapping[str, Shape]) -> Sources:
     """Return the bodies whose poses the names tell, by body.
 
     Poses are arrays (T, 4, 4) or (T, 1, 4, 4), called by their own name; or a position (T, 3) and an orientation of
-    the same beginning, `robot0_eef_pos` and `robot0_eef_quat`.
+    the same beginning, `robot0_eef_pos` and `robot0_eef_quat`. Groups are left out of a body's name unless two bodies
+    would have one name.
     """
     shapes = {name: _squeezed(shape) for name, shape in shapes.items()}
-    matrices = {_leaf(name): Source(name) for name, shape in shapes.items() if _is_matrices(shape)}
-    turns: dict[str, str] = {}
-    for name, shape in shapes.items():
-        match = _TURN.fullmatch(name)
-        if match and (shape[1:] in ((3,), (4,), (6,), (9,), (3, 3))):
-            turns.setdefault(match["body"].lower(), name)
-    pairs: Sources = {}
+    found: list[tuple[str, Source]] = []
     for name, shape in shapes.items():
         match = _POSITION.fullmatch(name)
-        turn = turns.get(match["body"].lower()) if match and shape[1:] == (3,) else None
+        turn = _turn_of(match["body"], shapes) if match and shape[1:] == (3,) else None
         if match and turn and turn != name and shapes[turn][0] == shape[0]:
-            pairs.setdefault(_leaf(match["body"]) or "pose", Source(name, turn))
-    return {**pairs, **{name: source for name, source in matrices.items() if name not in pairs}}
+            found.append((match["body"], Source(name, turn)))
+    found += [(name, Source(name)) for name, shape in shapes.items() if _is_matrices(shape)]
+    return _called(found)
+
+
+def _turn_of(body: str, shapes: Mapping[str, Shape]) -> str | None:
+    """Return the array of a body's orientations: of the same beginning, in other capitals where only one is."""
+    matches = {name: _TURN.fullmatch(name) for name, shape in shapes.items() if shape[1:] in _TURN_SHAPES}
+    turns = [(match["body"], name) for name, match in matches.items() if match]
+    same = [name for other, name in turns if other == body]
+    alike = {other for other, _ in turns if other.lower() == body.lower()}
+    return next(iter(same or [name for other, name in turns if {other} == alike]), None)
+
+
+def _called(found: Sequence[tuple[str, Source]]) -> Sources:
+    """Return sources by the last part of the body's path; by all of it where two end alike, or by their array's."""
+    choices = [(_leaf(body) or "pose", body.rstrip("_/") or "pose", source.poses) for body, source in found]
+    counts = [Counter(level) for level in zip(*choices, strict=True)]
+    names = [
+        next(name for name, count in zip(each, counts, strict=True) if count[name] == 1 or name == each[-1])
+        for each in choices
+    ]
+    return {name: source for name, (_, source) in zip(names, found, strict=True)}
+
+
+def short_names(paths: Sequence[str]) -> dict[str, str]:
+    """Return the last part of each path, by path; all of it where two end alike."""
+    count = Counter(map(_leaf, paths))
+    return {path: _leaf(path) if count[_leaf(path)] == 1 else path for path in paths}
+
+
+def nearest(paths: Sequence[str], to: str) -> str | None:
+    """Return the path that shares most of its groups with another, the first of equals."""
+
+    def shared(path: str) -> int:
+        both = zip(path.split("/")[:-1], to.split("/")[:-1], strict=False)
+        return len(list(takewhile(lambda groups: groups[0] == groups[1], both)))
+
+    return max(paths, key=shared, default=None)
 
 
 def stated_source(stated: Stated, shapes: Mapping[str, Shape]) -> Source | None:

@@ -8,16 +8,14 @@ caller, and so is the meaning of columns that nothing names. A leading axis (N, 
 
 from __future__ import annotations
 
-import warnings
-import zipfile
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy as np
 from dmpcpp._typing import Array
-from dmpcpp.errors import FileError, InvalidArgument, NotStated
+from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._layout import layout_of
-from dmpcpp.recordings._named_arrays import Source, held, poses_of, read_source, sources_in, stated_source
+from dmpcpp.recordings._named_arrays import Source, Sources, held, poses_of, read_source, sources_in, stated_source
+from dmpcpp.recordings._numpy_files import NumpyFile
 from dmpcpp.recordings._orientation import HELD_FIXED, from_matrices, from_quaternions, held_fixed, no_turn
 from dmpcpp.recordings._pose_columns import check_last_row
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
@@ -29,38 +27,32 @@ from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import World
 from numpy.typing import NDArray
 
-__all__ = ["READER", "bodies", "read", "read_arrays"]
+__all__ = ["READER", "bodies", "read"]
 
 _BODY = "pose"
 _POSE_NAMES = ("pose", "poses")
 _TIME_NAMES = ("time", "times", "timestamp", "timestamps", "t")
-_LARGEST_ARRAY = 256 * 1024 * 1024  # bytes; a hostile file may claim more than the machine has
 _BODY_MODEL = frozenset(("poses", "trans")), frozenset(("root_orient", "pose_body"))
 _FEWEST_JOINTS = 20  # three numbers each; no other array called poses is that wide
 
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
     """Return the bodies whose arrays have names that tell, or "pose" for the only array."""
-    arrays = _numeric(read_arrays(path))
-    return tuple(_sources(arrays, stated))
+    return tuple(_sources(NumpyFile(path), stated))
 
 
 def read(path: Path, body: str | None, stated: Stated) -> Recording:
     """Return the poses; `rate` is needed where the file holds no times, `quat_order` for (T, 7) and (T, 8)."""
-    arrays = _numeric(read_arrays(path))
-    sources = _sources(arrays, stated)
+    file = NumpyFile(path)
+    sources = _sources(file, stated)
     body = pick_body(body, tuple(sources))
     source = sources[body]
     if source.turn or body != _BODY or stated.layout is not None:
-        return _of_source(arrays, source, body, path, stated)
-    return _of_poses(arrays, _chosen(arrays[source.poses], stated.index), path, stated)
+        return _of_source(file, source, body, stated)
+    return _of_poses(file, _chosen(file.get(source.poses), stated.index), stated)
 
 
-def _numeric(arrays: dict[str, Array]) -> dict[str, Array]:
-    return {name: array for name, array in arrays.items() if array.dtype.kind == "f"}
-
-
-def _sources(arrays: dict[str, Array], stated: Stated) -> dict[str, Source]:
+def _sources(file: NumpyFile, stated: Stated) -> Sources:
     """Return the bodies of a file: as specified, by the names of arrays, or the only one that fits.
 
     Raises
@@ -68,28 +60,33 @@ def _sources(arrays: dict[str, Array], stated: Stated) -> dict[str, Source]:
     InvalidArgument
         There is none.
     """
-    shapes = {name: array.shape for name, array in arrays.items()}
+    shapes = file.shapes
     source = stated_source(stated, shapes)
     if source is not None:
         return {_BODY: source}
     _refuse_body_model(shapes)
-    named = [name for name in _POSE_NAMES if name in arrays and _fits(arrays[name])]
+    named = [name for name in _POSE_NAMES if name in shapes and _fits(shapes[name])]
     if named:
         return {_BODY: Source(named[0])}
     found = sources_in(shapes)
-    if len(arrays) == 1 and next(iter(arrays.values())).ndim == 2:
-        return {_BODY: Source(next(iter(arrays)))}
-    fitting = [name for name, array in arrays.items() if _fits(array) and name not in _TIME_NAMES]
+    if len(shapes) == 1 and len(next(iter(shapes.values()))) == 2:
+        return {_BODY: Source(next(iter(shapes)))}
+    fitting = [name for name, shape in shapes.items() if _fits(shape) and name not in _TIME_NAMES]
     if found:
         return found
     if len(fitting) != 1:
-        raise InvalidArgument(
-            "expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8), or 'position' (T, 3) beside "
-            f"'quaternion' (T, 4) or 'rotation' (T, 3, 3); or name them: dataset='POSITION,ORIENTATION'. The file "
-            f"holds: "
-            f"{held(shapes)}."
-        )
+        raise _no_poses(file)
     return {_BODY: Source(fitting[0])}
+
+
+def _no_poses(file: NumpyFile) -> InvalidArgument:
+    """Return the error for a file of which no array tells that it holds poses."""
+    pickles = f" Pickles, never opened: {', '.join(file.pickles[:24])}." if file.pickles else ""
+    return InvalidArgument(
+        "expected one array of poses named 'pose', shaped (T, 4, 4), (T, 7) or (T, 8), or 'position' (T, 3) beside "
+        "'quaternion' (T, 4) or 'rotation' (T, 3, 3); or name them: dataset='POSITION,ORIENTATION'. The file holds: "
+        f"{held(file.shapes)}.{pickles}"
+    )
 
 
 def _refuse_body_model(shapes: dict[str, tuple[int, ...]]) -> None:
@@ -105,31 +102,31 @@ def _refuse_body_model(shapes: dict[str, tuple[int, ...]]) -> None:
         )
 
 
-def _of_source(arrays: dict[str, Array], source: Source, body: str, path: Path, stated: Stated) -> Recording:
+def _of_source(file: NumpyFile, source: Source, body: str, stated: Stated) -> Recording:
     def get(name: str) -> Array:
-        return arrays[name] if stated.index is None else _chosen(arrays[name], stated.index)
+        return file.get(name) if stated.index is None else _chosen(file.get(name), stated.index)
 
     position, rotation, notes, channels = read_source(source, get, stated)
     time = channels.pop("time", None)
     if stated.layout is not None and "time" in layout_of(stated)[0].where:
-        time = arrays[source.poses].reshape(len(position), -1)[:, layout_of(stated)[0].where["time"]]
-    sampled = _sampling(arrays, len(position), stated, time)
+        time = get(source.poses).reshape(len(position), -1)[:, layout_of(stated)[0].where["time"]]
+    sampled = _sampling(file, len(position), stated, time)
     return sampled.stated.recording(
         time=sampled.time,
         position=position,
         rotation=rotation,
         body=body,
-        source=path.name,
+        source=file.path.name,
         notes=[*sampled.notes, *notes],
         world=World(handedness=None),
         channels=channels,
     )
 
 
-def _of_poses(arrays: dict[str, Array], poses: Array, path: Path, stated: Stated) -> Recording:
+def _of_poses(file: NumpyFile, poses: Array, stated: Stated) -> Recording:
     lost = _lost(poses, stated.missing)
     time, position, rotation, notes = _split(poses, stated, lost)
-    sampled = _sampling(arrays, len(poses), stated, time)
+    sampled = _sampling(file, len(poses), stated, time)
     notes = [*sampled.notes, *notes]
     if stated.index is not None:
         notes = [f"demonstration {stated.index} of the file", *notes]
@@ -139,7 +136,7 @@ def _of_poses(arrays: dict[str, Array], poses: Array, path: Path, stated: Stated
         position=position,
         rotation=rotation,
         body=_BODY,
-        source=path.name,
+        source=file.path.name,
         notes=notes,
         world=World(handedness=None),
     )
@@ -156,8 +153,8 @@ def _lost(poses: Array, missing: str | float | None) -> NDArray[np.bool_]:
     return lost_zeros(position) if np.isfinite(position).all() else np.zeros(len(poses), dtype=bool)
 
 
-def _fits(array: Array) -> bool:
-    return array.shape[-2:] == (4, 4) or (array.ndim >= 2 and array.shape[-1] in (3, 6, 7, 8, 9, 10, 12, 16))
+def _fits(shape: tuple[int, ...]) -> bool:
+    return shape[-2:] == (4, 4) or (len(shape) >= 2 and shape[-1] in (3, 6, 7, 8, 9, 10, 12, 16))
 
 
 def _chosen(poses: Array, index: int | None) -> Array:
@@ -245,69 +242,22 @@ def _mostly_even(steps: Array) -> bool:
     return bool(high - low <= middle)
 
 
-def _sampling(arrays: dict[str, Array], count: int, stated: Stated, column: Array | None) -> Sampling:
+def _sampling(file: NumpyFile, count: int, stated: Stated, column: Array | None) -> Sampling:
     """Return when the samples were taken, by a column of the poses or an array beside them."""
     if column is not None:
         return sampling(count, stated, times=lambda: column)
-    named = next((name for name in _TIME_NAMES if name in arrays), None)
+    shapes = file.shapes
+    named = next((name for name in _TIME_NAMES if name in shapes), None)
     if named is not None:
-        return sampling(count, stated, times=lambda: _times(arrays, named, count))
-    rate = arrays.get("rate", arrays.get("fps", np.empty(0)))
-    return sampling(count, stated, rate=float(rate.reshape(-1)[0]) if rate.size == 1 else None)
+        return sampling(count, stated, times=lambda: _times(file, named, count))
+    rate = next((name for name in ("rate", "fps") if name in shapes and np.prod(shapes[name]) == 1), None)
+    return sampling(count, stated, rate=None if rate is None else float(file.get(rate).reshape(-1)[0]))
 
 
-def _times(arrays: dict[str, Array], name: str, count: int) -> Array:
-    if arrays[name].reshape(-1).shape != (count,):
-        raise InvalidArgument(f"{name}: shape {arrays[name].shape}, expected ({count},), one for each pose.")
-    return arrays[name].reshape(-1)
-
-
-def read_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Return the arrays of a .npz by name, or of a .npy as "pose"; numbers as float64, text as it is.
-
-    Raises
-    ------
-    FileError
-        The file is missing or cannot be read.
-    InvalidArgument
-        It is damaged, or holds anything but numbers and text.
-    """
-    try:
-        with path.open("rb") as file:
-            return _members(file) if zipfile.is_zipfile(file) else {"pose": _array(file, path.stat().st_size)}
-    except InvalidArgument:
-        raise
-    except OSError as error:
-        raise FileError(f"{path}: cannot be read ({error.strerror or error}).") from None
-    # NumPy and zipfile meet a damaged file with a dozen types of exception, SyntaxError and zlib.error too.
-    except Exception as error:
-        raise InvalidArgument(f"not a readable NumPy file ({type(error).__name__}: {error}).") from None
-
-
-def _members(file: BinaryIO) -> dict[str, np.ndarray]:
-    arrays = {}
-    with zipfile.ZipFile(file) as archive:
-        for info in archive.infolist():
-            with archive.open(info) as member:
-                array = _array(member, info.file_size)
-            arrays[info.filename.removesuffix(".npy")] = array
-    return arrays
-
-
-def _array(file: BinaryIO, size: int) -> np.ndarray:
-    """Return one array as float64, or as text; what its header claims must fit the file."""
-    file.seek(0)
-    version = np.lib.format.read_magic(file)
-    header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a header written by Python 2
-        shape, _, dtype = header(file)
-        claimed = int(np.prod([int(n) for n in shape], dtype=object)) * dtype.itemsize
-        if dtype.hasobject or claimed > min(size, _LARGEST_ARRAY):
-            raise InvalidArgument(f"an array of {claimed} bytes of {dtype} in {size} bytes of file.")
-        file.seek(0)
-        array = np.lib.format.read_array(file, allow_pickle=False)
-    return array.astype(np.float64) if array.dtype.kind in "fiu" else array
+def _times(file: NumpyFile, name: str, count: int) -> Array:
+    if np.prod(file.shapes[name]) != count:
+        raise InvalidArgument(f"{name}: shape {file.shapes[name]}, expected ({count},), one for each pose.")
+    return file.get(name).reshape(-1)
 
 
 READER = Reader(

@@ -13,15 +13,25 @@ import json
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from dmpcpp._typing import Array
 from dmpcpp.errors import FileError, InvalidArgument, NotStated
-from dmpcpp.recordings._datasets import LARGEST, chosen_episode, needed
-from dmpcpp.recordings._named_arrays import Source, Sources, held, read_source, sources_in, stated_source
+from dmpcpp.recordings._datasets import Allowance, chosen_episode, needed
+from dmpcpp.recordings._formats.hdf5_arrays import arrays_in, read_array
+from dmpcpp.recordings._named_arrays import (
+    Source,
+    Sources,
+    held,
+    nearest,
+    read_source,
+    short_names,
+    sources_in,
+    stated_source,
+)
 from dmpcpp.recordings._reader import COMMON, Reader, pick_body
 from dmpcpp.recordings._recording import Axis, Recording
 from dmpcpp.recordings._sampling import Sampling, sampling
@@ -38,8 +48,8 @@ _DROID = "observation/robot_state/cartesian_position"
 _DROID_TIME = "observation/timestamp/robot_state/read_start"
 _TIMES = re.compile(r"(?:.*/)?(?:time|times|timestamps?|t)")
 _ACTION = re.compile(r"(?:.*/)?(?:actions?(?:/.*|$)|next_obs/.*)")  # commands, and observations one step later
-_MOST_ARRAYS = 20_000
 _LOW_CONFIDENCE = 0.1
+_MOST_CHANNELS = 32
 
 
 @dataclass(frozen=True)
@@ -73,13 +83,13 @@ class _File:
     prefix: str  # of the episode
     known: _Known
     notes: tuple[str, ...] = ()
+    allowance: Allowance = field(default_factory=Allowance)
 
     def get(self, name: str) -> Array:
-        """Return an array; at most 256 MB."""
+        """Return an array; all that are read take at most 256 MB."""
         data = self.file[self.prefix + name]
-        if data.nbytes > LARGEST:
-            raise InvalidArgument(f"{name}: {data.nbytes} bytes, expected at most {LARGEST}.")
-        return np.asarray(data[()], dtype=np.float64)
+        self.allowance.take(name, data.shape, data.dtype)
+        return read_array(name, data)
 
 
 def bodies(path: Path, stated: Stated) -> tuple[str, ...]:
@@ -99,10 +109,10 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         elif stated.quat_order is None and file.known.quat_order and source.turn:
             stated = replace(stated, quat_order=file.known.quat_order)  # type: ignore[arg-type]
         position, rotation, notes, channels = read_source(source, file.get, stated)
-        lost, doubts = _unsure(file, body, len(position))
+        lost, doubts = _unsure(file, source, len(position))
         position, rotation = position.copy(), rotation.copy()
         position[lost], rotation[lost] = np.nan, np.nan
-        sampled = _sampling(file, len(position), stated)
+        sampled = _sampling(file, source, len(position), stated)
         known = file.known
         told = (
             [f"taken: up_axis: {known.up_axis}, as {known.name} has it"] if known.up_axis and not stated.up_axis else []
@@ -157,13 +167,12 @@ def _sources(file: _File, stated: Stated) -> Sources:
     )
 
 
-def _sampling(file: _File, count: int, stated: Stated) -> Sampling:
-    """Return when the samples were taken: at the rate that was specified, by an array of times, or control_freq."""
+def _sampling(file: _File, source: Source, count: int, stated: Stated) -> Sampling:
+    """Return when the samples were taken: at the specified rate, by the nearest array of times, or control_freq."""
     if _DROID_TIME in file.shapes and file.shapes[_DROID_TIME] == (count,):
         return sampling(count, stated, times=lambda: file.get(_DROID_TIME), unit="ms")
-    named = next(
-        (n for n, shape in file.shapes.items() if _TIMES.fullmatch(n) and shape in ((count,), (count, 1))), None
-    )
+    times = [n for n, shape in file.shapes.items() if _TIMES.fullmatch(n) and shape in ((count,), (count, 1))]
+    named = nearest(times, source.poses)
     if named is not None:
         return sampling(count, stated, times=lambda: file.get(named).reshape(-1))
     rate = _control_freq(file.file)
@@ -187,10 +196,10 @@ def _control_freq(file: Any) -> float | None:
         return None
 
 
-def _unsure(file: _File, body: str, count: int) -> tuple[np.ndarray, list[str]]:
+def _unsure(file: _File, source: Source, count: int) -> tuple[np.ndarray, list[str]]:
     """Return which samples (T,) of a joint have a confidence below 0.1, and a note."""
-    name = f"confidences/{body}"
-    if file.shapes.get(name) != (count,):
+    name = source.poses.replace("transforms/", "confidences/", 1)
+    if not source.poses.startswith("transforms/") or file.shapes.get(name) != (count,):
         return np.zeros(count, dtype=bool), []
     lost = ~(file.get(name) >= _LOW_CONFIDENCE)
     note = f"{int(lost.sum())} samples with a confidence below {_LOW_CONFIDENCE:g} taken as lost"
@@ -198,10 +207,9 @@ def _unsure(file: _File, body: str, count: int) -> tuple[np.ndarray, list[str]]:
 
 
 def _grippers(file: _File, count: int) -> dict[str, Array]:
-    named = [
-        name for name, shape in file.shapes.items() if "gripper" in name.lower() and shape in ((count,), (count, 1))
-    ]
-    return {name.rsplit("/", 1)[-1]: file.get(name).reshape(-1) for name in named if not _ACTION.fullmatch(name)}
+    fitting = [name for name, shape in file.shapes.items() if shape in ((count,), (count, 1))]
+    named = [name for name in fitting if "gripper" in name.lower() and not _ACTION.fullmatch(name)]
+    return {short: file.get(name).reshape(-1) for name, short in short_names(named[:_MOST_CHANNELS]).items()}
 
 
 @contextmanager
@@ -210,7 +218,7 @@ def _opened(path: Path, stated: Stated) -> Iterator[_File]:
     h5py = needed("h5py", "HDF5 files")
     try:
         with h5py.File(path, "r") as file:
-            yield _at_episode(file, _arrays(h5py, file), stated)
+            yield _at_episode(file, arrays_in(h5py, file), stated)
     except (InvalidArgument, FileError):
         raise
     except OSError as error:
@@ -219,38 +227,9 @@ def _opened(path: Path, stated: Stated) -> Iterator[_File]:
         raise InvalidArgument(f"not a readable HDF5 file ({type(error).__name__}: {str(error)[:120]}).") from None
 
 
-def _arrays(h5py: Any, file: Any) -> dict[str, tuple[int, ...]]:
-    """Return the arrays of numbers in a file: hard links only, so that nothing outside of it is opened."""
-    found: dict[str, tuple[int, ...]] = {}
-    waiting: list[tuple[str, Any]] = [("", file)]
-    seen: set[Any] = set()
-    while waiting and len(found) < _MOST_ARRAYS and len(seen) < _MOST_ARRAYS:
-        prefix, group = waiting.pop()
-        for name in sorted(group, reverse=True):
-            if group.get(name, getlink=True).__class__ is not h5py.HardLink:
-                continue
-            item = group[name]
-            if isinstance(item, h5py.Group):
-                if item.id not in seen:
-                    seen.add(item.id)
-                    waiting.append((f"{prefix}{name}/", item))
-            elif isinstance(item, h5py.Dataset) and _is_plain(item):
-                found[f"{prefix}{name}"] = tuple(item.shape)
-    return dict(sorted(found.items()))
-
-
-def _is_plain(item: Any) -> bool:
-    """Return whether a data set holds numbers that stand in the file itself."""
-    return item.dtype.kind in "fiu" and bool(item.shape) and not item.is_virtual and item.external is None
-
-
 def _at_episode(file: Any, shapes: dict[str, tuple[int, ...]], stated: Stated) -> _File:
     """Return the arrays of one episode where the names of groups count episodes, else all of them."""
-    groups: dict[int, str] = {}
-    for name in shapes:
-        match = _EPISODE.match(name)
-        if match and match.end() < len(name) and name[match.end()] == "/":
-            groups.setdefault(int(match["number"]), name[: match.end() + 1])
+    groups = _episodes(shapes)
     if not groups:
         if stated.episode not in (None, 0):
             raise InvalidArgument(f"episode: {stated.episode}, but the file holds no groups of episodes.")
@@ -261,6 +240,18 @@ def _at_episode(file: Any, shapes: dict[str, tuple[int, ...]], stated: Stated) -
     return _File(
         file, _within(shapes, prefix), prefix, inner, (f"{inner.name}: episode {number}, {prefix.rstrip('/')}",)
     )
+
+
+def _episodes(shapes: dict[str, tuple[int, ...]]) -> dict[int, str]:
+    """Return the groups of episodes by number; none where two have one number, as of a left and a right hand."""
+    groups: dict[int, str] = {}
+    for name in shapes:
+        match = _EPISODE.match(name)
+        if match and match.end() < len(name) and name[match.end()] == "/":
+            prefix = name[: match.end() + 1]
+            if groups.setdefault(int(match["number"]), prefix) != prefix:
+                return {}
+    return groups
 
 
 def _within(shapes: dict[str, tuple[int, ...]], prefix: str) -> dict[str, tuple[int, ...]]:

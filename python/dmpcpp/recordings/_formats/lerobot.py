@@ -39,7 +39,8 @@ _FEATURES = (
 _SIDES = {"_l": "left", "_r": "right", "_left": "left", "_right": "right"}
 _LONGEST_INFO = 4 * 1024 * 1024  # characters of meta/info.json
 _MOST_FILES = 100_000
-_MOST_ROWS = 10_000_000  # of one file; repeated values take no space in it
+_MOST_ROWS = 10_000_000  # of one file
+_BATCH = 1024  # rows read at once
 
 
 @dataclass(frozen=True)
@@ -179,23 +180,57 @@ def _column(file: Path, name: str) -> Array:
     parquet = needed("pyarrow.parquet", "LeRobot data sets")
     try:
         opened = parquet.ParquetFile(file)
-        size = sum(opened.metadata.row_group(k).total_byte_size for k in range(opened.num_row_groups))
-        if name not in opened.schema_arrow.names:
-            raise InvalidArgument(
-                f"{file.name}: no column {name!r}. It holds: {', '.join(opened.schema_arrow.names)[:300]}."
-            )
-        if size > 64 * LARGEST:
-            raise InvalidArgument(f"{file.name}: {size} bytes, expected at most {64 * LARGEST}.")
-        if opened.metadata.num_rows > _MOST_ROWS:
-            raise InvalidArgument(f"{file.name}: {opened.metadata.num_rows} rows, expected at most {_MOST_ROWS}.")
-        column = opened.read(columns=[name]).column(name).to_pylist()
-        return np.array(column, dtype=np.float64)
+        _check_size(opened, file, name)
+        batches = opened.iter_batches(_BATCH, columns=[name])
+        return np.concatenate([_numbers(batch.column(0)) for batch in _bounded(batches, file, name)])
     except InvalidArgument:
         raise
     except OSError as error:
         raise FileError(f"{file}: cannot be read ({str(error)[:120]}).") from None
     except Exception as error:  # of a damaged file pyarrow raises a dozen types
         raise InvalidArgument(f"{file.name}: not readable ({type(error).__name__}: {str(error)[:120]}).") from None
+
+
+def _check_size(opened: Any, file: Path, name: str) -> None:
+    """Refuse a column that is not there or larger than a recording; repeated values take no space in the file."""
+    if name not in opened.schema_arrow.names:
+        raise InvalidArgument(
+            f"{file.name}: no column {name!r}. It holds: {', '.join(opened.schema_arrow.names)[:300]}."
+        )
+    rows, width = opened.metadata.num_rows, getattr(opened.schema_arrow.field(name).type, "list_size", 1)
+    if rows > _MOST_ROWS or 8 * rows * width > LARGEST:
+        raise InvalidArgument(
+            f"{file.name}: {rows} rows of {width} numbers, expected at most {_MOST_ROWS} rows and {LARGEST} bytes."
+        )
+    size = sum(opened.metadata.row_group(k).total_byte_size for k in range(opened.num_row_groups))
+    if size > 64 * LARGEST:
+        raise InvalidArgument(f"{file.name}: {size} bytes, expected at most {64 * LARGEST}.")
+
+
+def _bounded(batches: Iterator[Any], file: Path, name: str) -> Iterator[Any]:
+    """Yield batches of rows until they are larger than a recording; lists of any length are known when they are read.
+
+    The lengths that the file's metadata state are not asked for: pyarrow ends the process where they are damaged.
+    """
+    size = 0
+    for batch in batches:
+        size += 2 * batch.nbytes  # float32 becomes float64
+        if size > LARGEST:
+            raise InvalidArgument(f"{file.name}: {name} has more than {LARGEST} bytes.")
+        yield batch
+
+
+def _numbers(column: Any) -> Array:
+    """Return a column of numbers, or of lists of equal length, as (T,) or (T, n); null becomes NaN."""
+    rows = len(column)
+    nested = False
+    while hasattr(column, "flatten") and hasattr(column, "value_lengths"):
+        lengths = set(column.value_lengths().unique().to_pylist())
+        if column.null_count or len(lengths) > 1:
+            raise ValueError("lists of different lengths")
+        column, nested = column.flatten(), True
+    flat = np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64)
+    return flat.reshape(rows, -1) if nested else flat
 
 
 def _bodies(data: _Set, stated: Stated) -> dict[str, tuple[str, dict[str, int]]]:
