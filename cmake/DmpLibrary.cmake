@@ -27,5 +27,9 @@ function(dmp_add_library component)
   # No contraction to fused multiply-add: the library's own arithmetic has the same bits on every processor.
   # Nobody replaces the library's functions at run time, so they may be inlined within it.
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
-  dmp_precompile(${target} <Eigen/Core> <Eigen/Geometry> <string> <vector>)
+  if(component STREQUAL core)
+    dmp_precompile(${target} <Eigen/Core> <Eigen/Geometry> <string> <vector>)
+  else()
+    dmp_precompiled_by(${target} dmp_core)
+  endif()
 endfunction()

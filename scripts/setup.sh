@@ -113,9 +113,10 @@ install_bullet() {
   strip --strip-debug "$venv"/lib/python3*/site-packages/pybullet.*.so  # 130 MB in the wheels of the index
 } 8>>"$cache/lock"
 
-# Not isolated, so that it finds numpy: without it a picture is a list of numbers, and a film takes minutes.
+# Not isolated, so that it finds numpy: without it a picture is a list of numbers, and a film takes minutes. Its use of numpy
+# is an error for GCC 14 unless this one check is off.
 compile_bullet() {
-  pip install "numpy>=1.26" "setuptools<81" wheel && CFLAGS="-O2 -g0 -w" pip_bullet wheel --no-build-isolation -w "$cache"
+  pip install "numpy>=1.26" "setuptools<81" wheel && CFLAGS="-O2 -g0 -w -Wno-incompatible-pointer-types" pip_bullet wheel --no-build-isolation -w "$cache"
 }
 
 installed() { "$venv/bin/python" -c 'import importlib.util as u, sys; sys.exit(not u.find_spec(sys.argv[1]))' "$1"; }
