@@ -134,9 +134,9 @@ def regression() -> Any:
     counts = np.array([5, 10, 20, 40, 80, 160])
     page, (axes,) = columns(1, width=6.0)
     ways = {
-        "1 pass (textbook)": {"passes": 1},
-        "10 passes (default)": {"passes": 10},
-        "ridge regression": {"regression": "ridge"},
+        "LWR, 1 pass (textbook)": {"regression": "lwr", "passes": 1},
+        "LWR, 10 passes": {"regression": "lwr", "passes": 10},
+        "ridge regression (default)": {"regression": "ridge"},
     }
     for (name, options), colour, marker in zip(ways.items(), (RED, BLUE, GREEN), "so^", strict=True):
         errors = [learned(basis_count=int(n), **options).rollout_at(TIME).position - lift() for n in counts]

@@ -30,3 +30,25 @@ def test_a_picture_is_small_and_is_what_the_script_makes(name, tmp_path):
     assert before.shape == now.shape
     # Another version of matplotlib places text a little differently; another curve is more than that.
     assert float(np.abs(before - now).mean()) < 0.01
+    # Curves are thin: that they are there shows in the coloured pixels alone, colour by colour.
+    kept_hues, hues = _coloured(before), _coloured(now)
+    assert hues.sum() > 0
+    assert np.abs(kept_hues - hues).sum() < 0.15 * kept_hues.sum()
+
+
+def _coloured(picture):
+    """How many pixels there are of twelve hues, grey ones left out."""
+    from matplotlib.colors import rgb_to_hsv
+
+    hue, saturation, _ = np.moveaxis(rgb_to_hsv(picture), -1, 0)
+    return np.histogram(hue[saturation > 0.2], 12, (0.0, 1.0))[0]
+
+
+def test_curves_that_vanish_are_seen():
+    from matplotlib.image import imread
+
+    for name in PICTURES:
+        picture = imread(DOCS / f"{name}.png")[..., :3]
+        grey = np.repeat(picture.mean(axis=-1, keepdims=True), 3, axis=-1)
+        assert _coloured(picture).sum() > 100, name
+        assert _coloured(grey).sum() == 0, name
