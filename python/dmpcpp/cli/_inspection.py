@@ -118,7 +118,8 @@ def _print(found: Inspection) -> None:
         console.print(f"markers beside the bodies (--markers A,B,C): {held}", markup=False, soft_wrap=True)
     for title, entries in (("to state", found.needed), ("taken", found.assumed)):
         for name, text in entries.items():
-            said = _in_flags(text).removeprefix(f"{found.source}: ")  # which stands in the first line
+            # The file stands in the first line, the flag before its text.
+            said = _in_flags(text).removeprefix(f"{found.source}: ").removeprefix(f"{flag(name)}: ")
             console.print(f"{title}: {flag(name)}: {said}", markup=False, soft_wrap=True)
     for problem in found.problems:
         console.print(_in_flags(problem), style="bold red", markup=False, soft_wrap=True)
