@@ -55,12 +55,15 @@ set(DMP_kinematics_SOURCES
   kinematics/route_search.cpp
   kinematics/singularity.cpp
   robot/arm.cpp
+  robot/arm_choice.cpp
   robot/arm_dynamics.cpp
+  robot/arm_tree.cpp
   robot/checks.cpp
   robot/flat_chain.cpp
   robot/joint_spline.cpp
   robot/joint_trajectory.cpp
   robot/kdl_forward.cpp
+  robot/tool_frame.cpp
   robot/urdf_chain.cpp
   robot/urdf_graph.cpp
   robot/urdf_scan.cpp

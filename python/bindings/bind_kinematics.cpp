@@ -116,9 +116,10 @@ master. Radians for turning joints, metres for sliding ones; poses are tip in ba
       .def_static(
           "from_urdf", &Arm::from_urdf, py::arg("text"), py::arg("base") = "", py::arg("tip") = "",
           py::arg("folder") = "",
-          R"(Read a URDF; base "" is the root link, tip "" the only link without children below the base.
+          R"(Read a URDF; base "" is the root link, tip "" the tool at the end of the longest chain of arm joints.
 
-`folder` is where mesh paths are relative to.
+No gripper's joint is an arm's; frames named tcp, tool0, grasp, end_effector, tool or hand are preferred. `choice` says
+what was taken. `folder` is where mesh paths are relative to.
 
 Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.)")
       .def_static(
@@ -146,9 +147,21 @@ Raises InvalidArgument, naming the joint or link, for a URDF with which no motio
 lower, upper in rad (m of a sliding joint); velocity, acceleration and jerk per s, s^2 and s^3; effort in N m (N);
 tool_speed, one number, in m/s. Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
 `limit_sources` for each joint. Raises InvalidArgument unless lower < upper and all other limits are > 0.)")
+      .def(
+          "with_tool",
+          [](const Arm& arm, const Array& frame) { return arm.with_tool(to_pose(frame, "frame")); },
+          py::arg("frame"),
+          R"(A copy whose tip is a frame fixed to this one's, for what a flange carries.
+
+`frame` (4, 4) is the tool in the tip, m. Its link is called like the tip with "_tool" behind and weighs nothing.
+Raises InvalidArgument unless it is a pose.)")
       .def_property_readonly("name", text_of(&Arm::name), "Name of the robot.")
       .def_property_readonly("base", text_of(&Arm::base), "Link in whose frame poses are given.")
       .def_property_readonly("tip", text_of(&Arm::tip), "Link whose pose is given.")
+      .def_property_readonly(
+          "choice", text_of(&Arm::choice),
+          "\"6 joints, j1 to j6; held still: jaw\" where base and tip were chosen; empty where "
+          "both were stated.")
       .def_property_readonly("joint_count", &Arm::joint_count, "Number of free joints, n.")
       .def_property_readonly("joint_names", text_of(&Arm::joint_names),
                              "Names of the n free joints, from base to tip.")

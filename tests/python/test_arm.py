@@ -128,8 +128,8 @@ def test_limits_and_their_sources_go_through_a_pickle(panda: Arm) -> None:
 
 
 def test_errors_about_links_list_those_that_exist() -> None:
-    with pytest.raises(dmpcpp.InvalidArgument, match="panda_grasptarget, panda_leftfinger"):
-        Arm.from_urdf_file(urdf_path("panda"))
+    with pytest.raises(dmpcpp.InvalidArgument, match=r"no link 'hand'.*panda_grasptarget, panda_hand"):
+        Arm.from_urdf_file(urdf_path("panda"), base="hand")
     with pytest.raises(ValueError, match=r"no link 'wrist'.*panda_link7"):
         Arm.from_urdf_file(urdf_path("panda"), tip="wrist")
 

@@ -80,7 +80,7 @@ def test_demo_is_verified(arm, tmp_path):
 def test_every_demo_has_a_folder_of_its_own_and_its_config_says_which(stated, folder, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(recordings, "clip", lambda *_: None)
-    monkeypatch.setattr(arms, "load", lambda *_: None)
+    monkeypatch.setattr(arms, "load", lambda *_, **__: None)
 
     def carried_out(recording, arm, *, out, **_):
         out.mkdir()

@@ -55,9 +55,11 @@ struct LimitOverrides {
 /// base.
 class DMP_EXPORT Arm {
  public:
-  /// Reads a URDF. `base` "" is the root link; `tip` "" is the only link without children below the base.
-  /// Throws InvalidArgument, naming the joint or link, when urdfdom refuses the text; when a link does not
-  /// exist or several could be meant (the message lists them); when tip is not below base; when a joint
+  /// Reads a URDF. `base` "" is the root link; `tip` "" is the tool at the end of the longest chain of arm
+  /// joints: no gripper's joint is one, and frames named tcp, tool0, grasp, end_effector, tool or hand are
+  /// preferred (choice() says what was taken). Throws InvalidArgument, naming the joint or link, when urdfdom
+  /// refuses the text; when a link does not exist; when several arms could be meant or the last joint could
+  /// be a jaw (the message has one line for each); when tip is not below base; when a joint
   /// between base and tip is floating or planar, or has no axis, no limits, or lower >= upper; when a mimic
   /// joint's master is not between base and tip; when links form a cycle. Non-fatal problems are listed in
   /// warnings(). Mesh paths are relative to `folder`.
@@ -71,9 +73,15 @@ class DMP_EXPORT Arm {
   /// Throws InvalidArgument unless the sizes are n, lower < upper, and all other limits are > 0.
   Arm with_limits(const LimitOverrides& limits) const;
 
+  /// A copy whose tip is a frame fixed to this one's, for what a flange carries: `frame` is the tool in the
+  /// tip, [R p; 0 1] in m with R in SO(3) to 1e-3. Its link is called `tip`_tool and weighs nothing.
+  Arm with_tool(const Eigen::Matrix4d& frame) const;
+
   const std::string& name() const;
   const std::string& base() const;
   const std::string& tip() const;
+  /// "6 joints, j1 to j6; held still: jaw" where base and tip were chosen; "" where both were stated.
+  const std::string& choice() const;
   Eigen::Index joint_count() const;                     ///< n
   const std::vector<std::string>& joint_names() const;  ///< n, from base to tip
   const Eigen::VectorXd& lower() const;                 ///< (n); -infinity for a continuous joint

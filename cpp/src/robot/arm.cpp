@@ -10,6 +10,7 @@
 #include "robot/arm_dynamics.hpp"
 #include "robot/checks.hpp"
 #include "robot/kdl_forward.hpp"
+#include "robot/tool_frame.hpp"
 #include "robot/urdf_chain.hpp"
 
 namespace dmp {
@@ -103,9 +104,16 @@ Arm Arm::with_limits(const LimitOverrides& limits) const {
   return Arm(std::move(model));
 }
 
+Arm Arm::with_tool(const Eigen::Matrix4d& frame) const {
+  auto model = std::make_shared<detail::ChainModel>(*model_);
+  detail::add_tool(*model, frame);
+  return Arm(std::move(model));
+}
+
 const std::string& Arm::name() const { return model_->name; }
 const std::string& Arm::base() const { return model_->base; }
 const std::string& Arm::tip() const { return model_->tip; }
+const std::string& Arm::choice() const { return model_->choice; }
 Eigen::Index Arm::joint_count() const { return model_->lower.size(); }
 const std::vector<std::string>& Arm::joint_names() const { return model_->joint_names; }
 const Eigen::VectorXd& Arm::lower() const { return model_->lower; }

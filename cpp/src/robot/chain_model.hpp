@@ -26,6 +26,7 @@ struct Coupling {
 /// cache nothing.
 struct ChainModel {
   std::string name, base, tip;
+  std::string choice;  ///< how base and tip were chosen; "" where they were stated
   std::string urdf;
   std::string folder;
   std::vector<std::string> joint_names;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/text.hpp"
+#include "robot/arm_choice.hpp"
 #include "robot/urdf_graph.hpp"
 
 namespace dmp::detail {
@@ -315,15 +316,15 @@ ChainModel read_urdf(const std::string& text, const std::string& base, const std
   const urdf::ModelInterfaceSharedPtr urdf = parsed.model;
   ChainModel model;
   model.name = urdf->getName();
-  model.base = base.empty() ? urdf->getRoot()->name : base;
-  const urdf::LinkConstSharedPtr base_link = find_link(*urdf, model.base, "base");
-  model.tip = tip.empty() ? only_leaf(*base_link) : tip;
-  find_link(*urdf, model.tip, "tip");
+  const ArmChoice choice = choose_arm(*urdf, base, tip);
+  model.base = choice.base;
+  model.tip = choice.tip;
+  model.choice = choice.reason;
   const UrdfPath path = path_between(*urdf, model.base, model.tip);
   read_joints(path, parsed.scan, model);
   warn_of_what_is_missing(parsed, path, model.warnings);
   model.chain = chain_of(path, *urdf);
-  model.up = up_in(*urdf, base_link);
+  model.up = up_in(*urdf, urdf->getLink(model.base));
   for (const auto& joint : path) warn_of_inertia(*urdf->getLink(joint->child_link_name), model.warnings);
   model.urdf = text;
   return model;

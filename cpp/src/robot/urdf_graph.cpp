@@ -80,20 +80,6 @@ urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std:
   throw InvalidArgument(argument + ": no link '" + name + "' in this URDF; it has: " + listed(names) + ".");
 }
 
-std::string only_leaf(const urdf::Link& base) {
-  std::vector<std::string> leaves;
-  std::vector<const urdf::Link*> open = {&base};
-  while (!open.empty()) {
-    const urdf::Link* const link = open.back();
-    open.pop_back();
-    if (link->child_links.empty()) leaves.push_back(link->name);
-    for (const auto& child : link->child_links) open.push_back(child.get());
-  }
-  if (leaves.size() == 1) return leaves.front();
-  throw InvalidArgument("tip: not given, and the URDF has several ends: " + listed(leaves) +
-                        ". Name one link.");
-}
-
 UrdfPath path_between(const urdf::ModelInterface& model, const std::string& base, const std::string& tip) {
   UrdfPath path;
   for (std::string link = tip; link != base;) {

@@ -26,9 +26,6 @@ ParsedUrdf parse_urdf(const std::string& text);
 urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std::string& name,
                                    const std::string& argument);
 
-/// The only link without children at or below the base; else InvalidArgument, listing the candidates.
-std::string only_leaf(const urdf::Link& base);
-
 /// The joints on the way from base to tip, or InvalidArgument if tip does not hang below base.
 UrdfPath path_between(const urdf::ModelInterface& model, const std::string& base, const std::string& tip);
 

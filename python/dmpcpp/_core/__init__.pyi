@@ -2134,9 +2134,10 @@ class Arm:
     @staticmethod
     def from_urdf(text: str, base: str = '', tip: str = '', folder: str = '') -> Arm:
         """
-        Read a URDF; base "" is the root link, tip "" the only link without children below the base.
+        Read a URDF; base "" is the root link, tip "" the tool at the end of the longest chain of arm joints.
         
-        `folder` is where mesh paths are relative to.
+        No gripper's joint is an arm's; frames named tcp, tool0, grasp, end_effector, tool or hand are preferred. `choice` says
+        what was taken. `folder` is where mesh paths are relative to.
         
         Raises InvalidArgument, naming the joint or link, for a URDF with which no motion can be planned.
         """
@@ -2182,6 +2183,13 @@ class Arm:
         tool_speed, one number, in m/s. Infinity means that there is none. `source` says where they come from: one LimitSource, or a dict as
         `limit_sources` for each joint. Raises InvalidArgument unless lower < upper and all other limits are > 0.
         """
+    def with_tool(self, frame: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Arm:
+        """
+        A copy whose tip is a frame fixed to this one's, for what a flange carries.
+        
+        `frame` (4, 4) is the tool in the tip, m. Its link is called like the tip with "_tool" behind and weighs nothing.
+        Raises InvalidArgument unless it is a pose.
+        """
     @property
     def acceleration_limit(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -2191,6 +2199,11 @@ class Arm:
     def base(self) -> str:
         """
         Link in whose frame poses are given.
+        """
+    @property
+    def choice(self) -> str:
+        """
+        "6 joints, j1 to j6; held still: jaw" where base and tip were chosen; empty where both were stated.
         """
     @property
     def effort_limit(self) -> numpy.typing.NDArray[numpy.float64]:

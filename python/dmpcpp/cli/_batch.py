@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_choice, taken_surroundings
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
@@ -19,7 +20,6 @@ from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
-    arm_options,
     preparation_options,
     scale_range,
     taken_preparation,
@@ -35,8 +35,10 @@ if TYPE_CHECKING:
 @recording_options
 @preparation_options
 @arm_options
+@follow_option
+@contact_options
 @click.option("--pattern", default="*", show_default=True, metavar="GLOB", help="Which files, such as **/*.bvh.")
-@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1).")
+@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1, or less).")
 @click.option("--no-place", is_flag=True, help="Use the poses as tip poses in the arm's base frame.")
 @click.option("--basis-count", type=click.IntRange(1, 100000), help="Number of kernels (default: as many as needed).")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the placement.")
@@ -61,8 +63,6 @@ if TYPE_CHECKING:
 def batch(
     folder: Path,
     arm: str,
-    base: str | None,
-    tip: str | None,
     pattern: str,
     scale: str | None,
     no_place: bool,
@@ -86,16 +86,19 @@ def batch(
     from dmpcpp.trials import batch as library
 
     refuse_file(out)
-    arms.load(arm, base, tip)  # refuses a name or file that is none, before anything runs
+    choice = taken_choice(options)
+    arms.load(arm, **choice)  # refuses a name or file that is none, before anything runs
     preparation, smooth = taken_preparation(options)
     how = {
         "seed": seed,
         "place": not no_place,
-        "scale": list(scale_range(scale)),
+        "scale": scale_range(scale),
         "smooth": smooth,
         "basis_count": basis_count,
         "simulator": simulator,
         "accept": list(names(accept)),
+        "follow": options.pop("follow"),
+        "surroundings": taken_surroundings(options).to_dict(),
         "report": reports,
     }
     reading = taken_recording(options)
@@ -104,8 +107,7 @@ def batch(
         out,
         pattern=pattern,
         arm=arm,
-        base=base,
-        tip=tip,
+        **choice,
         reading=reading,
         preparation=asdict(preparation),
         options=how,

@@ -9,12 +9,13 @@ from pathlib import Path
 import click
 
 from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._tables import arm_line
 
 
 @click.command("check-urdf")
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root).")
-@click.option("--tip", metavar="LINK", help="Link that follows the motion (default: the URDF's only leaf).")
+@click.option("--tip", metavar="LINK", help="Link that follows the hand (default: the longest chain's tool).")
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON instead of the table.")
 def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> None:
     """List every defect of FILE, a URDF, that affects loading, planning or physics.
@@ -34,7 +35,7 @@ def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> 
             click.echo(f"{kind} {defect.where}: {defect.what}. {defect.to_do}")
         if report.arm is not None:
             arm = report.arm
-            click.echo(f"{arm.name}: {arm.joint_count} joints from {arm.base} to {arm.tip}")
+            click.echo(f"{arm.name}: {arm_line(arm)}")
         fatal = sum(defect.fatal for defect in report.defects)
         count = len(report.defects)
         click.echo(f"{fatal} error(s), {count - fatal} warning(s)" if count else "no defect found")

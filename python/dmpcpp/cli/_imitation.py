@@ -6,11 +6,13 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines, exports
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
@@ -18,14 +20,13 @@ from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
-    arm_options,
     placing_options,
     preparation_options,
     taken_placing,
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
-from dmpcpp.cli._tables import checks_table, note_style, way
+from dmpcpp.cli._tables import arm_line, checks_table, note_style, way
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import MissingDependency
 
@@ -91,19 +92,21 @@ def _run_options(
 @click.option("--clip", default=_DEMO["clip"], show_default=True, help="One of the clips that ship with PyBullet.")
 @click.option("--body", default=_DEMO["body"], show_default=True, help="Body whose motion is used.")
 @arm_options
+@follow_option
+@contact_options
 @_run_options(None, "dmpcpp-demo, followed by the clip, body and arm that were stated otherwise")
-def demo(clip: str, body: str, arm: str, base: str | None, tip: str | None, **run: Any) -> None:
+def demo(clip: str, body: str, **run: Any) -> None:
     """Run `dmpcpp imitate` on a human motion that ships with PyBullet.
 
     Example: dmpcpp demo --clip dance_b --arm iiwa --out dance
     """
     from dmpcpp import recordings
-    from dmpcpp.robot import arms
 
     if run["out"] is None:
-        run["out"] = _demo_folder({"clip": clip, "body": body, "arm": arm}, base, tip)
+        run["out"] = _demo_folder({"clip": clip, "body": body, "arm": run["arm"]}, run["base"], run["tip"])
         click.get_current_context().params["out"] = run["out"]  # which config.toml shall hold
-    _carry_out(recordings.clip(clip, body), arms.load(arm, base, tip), **run)
+    arm, surroundings = taken_arm(run), taken_surroundings(run)
+    _carry_out(recordings.clip(clip, body), arm, surroundings=surroundings, **run)
 
 
 def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> Path:
@@ -118,28 +121,26 @@ def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> P
 @preparation_options
 @placing_options
 @arm_options
+@follow_option
+@contact_options
 @_run_options("dmpcpp-imitation")
-def imitate(
-    file: Path,
-    arm: str,
-    base: str | None,
-    tip: str | None,
-    **options: Any,
-) -> None:
+def imitate(file: Path, **options: Any) -> None:
     """Execute the motion in FILE, a recording in any format that `dmpcpp inspect` reads.
 
     Example: dmpcpp imitate session.csv --body hand --unit mm --arm panda --out session
     """
     from dmpcpp import motion, recordings
-    from dmpcpp.robot import arms
 
     preparation, smooth = taken_preparation(options)
     placing = taken_placing(options)
+    how = {"surroundings": taken_surroundings(options), "follow": options.pop("follow")}
+    if callable(placing["place"]):
+        placing["place"] = partial(placing["place"], follow=how["follow"])
     taken = ("out", "seed", "basis_count", "simulator", "formats", "accept", "no_report", "as_json")
     run = {name: options.pop(name) for name in taken}
     recording = recordings.load(file, **taken_recording(options))
     recording, *others = motion.prepare_all(recording, preparation)
-    _carry_out(recording, arms.load(arm, base, tip), smooth=smooth, others=others, **placing, **run)
+    _carry_out(recording, taken_arm(options), smooth=smooth, others=others, **placing, **how, **run)
 
 
 def _carry_out(
@@ -234,6 +235,9 @@ def _print(run: Imitation, out: Path) -> None:
     for line in run.recording.history:
         console.print(line, style=note_style(line), soft_wrap=True, markup=False)
     console.print(run.evidence.sentence, soft_wrap=True, markup=False)
+    console.print(f"arm: {arm_line(run.log.arm)}", soft_wrap=True, markup=False)
+    if run.contacts:
+        console.print(f"contacts: {run.contacts.describe()}", style="dim", soft_wrap=True, markup=False)
     for line in run.log.arm.warnings:
         console.print(f"arm: {line}", style="yellow", soft_wrap=True, markup=False)
     console.print(
@@ -265,7 +269,9 @@ def _advice(run: Imitation) -> str:
 def _how(run: Imitation) -> str:
     """Engine, control mode and caveats."""
     engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
-    return f"{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
+    followed = run.log.follow.describe()
+    asked = f"{followed[0].upper()}{followed[1:]}. " if followed else ""
+    return f"{asked}{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:

@@ -5,25 +5,34 @@ from __future__ import annotations
 import json
 import math
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._arm_options import (
+    arm_options,
+    contact_options,
+    follow_option,
+    optional_arm_options,
+    taken_arm,
+    taken_surroundings,
+)
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._limit_options import accept_option, names
+from dmpcpp.cli._numbers import numbers
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
-    arm_options,
     preparation_options,
     scale_range,
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
-from dmpcpp.cli._tables import checks_table, note_style, way
+from dmpcpp.cli._tables import arm_line, checks_table, note_style, way
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
@@ -37,12 +46,10 @@ if TYPE_CHECKING:
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
 @recording_options
 @preparation_options
-@click.option(
-    "--arm", metavar="NAME|FILE.urdf", help="Place the first recording in this arm's workspace, the others with it."
-)
-@click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root).")
-@click.option("--tip", metavar="LINK", help="Link that follows the motion (default: the URDF's only leaf).")
-@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1).")
+@optional_arm_options("Place the first recording in this arm's workspace, the others with it.")
+@follow_option
+@contact_options
+@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1, or less).")
 @click.option(
     "--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the placement search."
 )
@@ -66,9 +73,6 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="Print the fit report as JSON instead of the tables.")
 def fit(
     files: tuple[Path, ...],
-    arm: str | None,
-    base: str | None,
-    tip: str | None,
     scale: str | None,
     seed: int,
     basis_count: int | None,
@@ -84,9 +88,8 @@ def fit(
 
     Example: dmpcpp fit reach.bvh --body RightHand --unit cm --arm panda --out reach.json
     """
-    from dmpcpp import motion, planning, recordings, save
+    from dmpcpp import motion, planning, recordings, save, simulation
     from dmpcpp.learning import teach
-    from dmpcpp.robot import arms
 
     refuse_file(out.parent)
     preparation, smooth = taken_preparation(options)
@@ -94,10 +97,14 @@ def fit(
     files = _without(files, leave_out)
     loaded = [recordings.load(file, **stated) for file in files]
     found = [part for recording in loaded for part in motion.prepare_all(recording, preparation)]
-    if arm is not None:
-        found = planning.placed(found, arms.load(arm, base, tip), scale=scale_range(scale), seed=seed)
-    elif base or tip or scale:
-        raise InvalidArgument("--base, --tip, --scale: without --arm they say nothing. State --arm too.")
+    if options["arm"] is not None:
+        around = taken_surroundings(options)
+        engine = partial(simulation.default_simulator, floor=around.floor, ignored=around.ignored)
+        found = planning.placed(
+            found, taken_arm(options), scale=scale_range(scale), seed=seed, engine=engine, follow=options["follow"]
+        )
+    else:
+        _require_no_arm({**options, "scale": scale})
     lesson = teach(found, basis_count=basis_count, smooth=smooth)
     written = lesson.ok or len(files) == 1  # takes that do not belong together make no model
     if written:
@@ -110,6 +117,13 @@ def fit(
         _print_lesson(lesson, out if written else None)
     if not lesson.ok:
         sys.exit(FAILED)
+
+
+def _require_no_arm(options: dict[str, Any]) -> None:
+    for name in ("base", "tip", "tool", "scale", "follow", "floor", "ignored"):
+        if options[name]:
+            option = "--ignore-contact" if name == "ignored" else f"--{name}"
+            raise InvalidArgument(f"{option}: without --arm it says nothing. State --arm too.")
 
 
 def _without(files: tuple[Path, ...], leave_out: tuple[int, ...]) -> tuple[Path, ...]:
@@ -152,6 +166,8 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path), metavar="MODEL")
 @arm_options
+@follow_option
+@contact_options
 @click.option(
     "--goal",
     metavar="X,Y,Z[,QX,QY,QZ,QW]",
@@ -185,9 +201,6 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
 def plan(
     model: Path,
-    arm: str,
-    base: str | None,
-    tip: str | None,
     goal: str | None,
     duration: float | None,
     exact_duration: bool,
@@ -196,6 +209,7 @@ def plan(
     accept: tuple[str, ...],
     out: Path,
     as_json: bool,
+    **arm: Any,
 ) -> None:
     """Plan the motion in MODEL, a model file, to a goal and duration, and write joints for an arm.
 
@@ -205,18 +219,18 @@ def plan(
     Example: dmpcpp plan reach.json --arm panda --goal 0.5,0.1,0.4 --duration 3 --out plan
     """
     from dmpcpp import load, planning, simulation
-    from dmpcpp.robot import arms
 
     refuse_file(out)
-    learned = load(model)
+    learned, engine, around = load(model), simulation.ENGINES.get(simulator), taken_surroundings(arm)
     found = planning.plan(
         learned,
-        arms.load(arm, base, tip),
+        taken_arm(arm),
         goal=_goal(goal, learned),
         duration=duration,
-        start=_numbers("--from-joints", from_joints) if from_joints else None,
+        start=numbers("--from-joints", from_joints) if from_joints else None,
         slow_down=not exact_duration,
-        simulator=simulation.ENGINES.get(simulator),
+        simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
+        follow=arm["follow"],
         accept=names(accept),
     )
     planning.write(found, out)
@@ -235,9 +249,14 @@ def _print_plan(found: JointPlan, out: Path) -> None:
     from dmpcpp.robot import assumptions
 
     console = Console(highlight=False)
+    console.print(f"arm: {arm_line(found.arm)}", soft_wrap=True, markup=False)
+    if found.contacts:
+        console.print(f"contacts: {found.contacts.describe()}", style="dim", soft_wrap=True, markup=False)
     console.print(checks_table(found.checks))
     duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted"
     how = f"{duration}; written to {out}/" + ("" if found.ok else ", without joints.csv: this plan is not for a robot")
+    if found.follow.describe():
+        how += f". {found.follow.describe()}."
     print_verdict(console, found, how, assumed=assumptions(found.arm), words=("planned", "not feasible"))
 
 
@@ -248,7 +267,7 @@ def _goal(text: str | None, model: Any) -> Array | None:
     import numpy as np
     from scipy.spatial.transform import Rotation
 
-    values = _numbers("--goal", text)
+    values = numbers("--goal", text)
     if len(values) not in (3, 7):
         raise InvalidArgument(f"--goal: {len(values)} number(s) in '{text}', expected x,y,z or x,y,z,qx,qy,qz,qw.")
     pose = np.array(model.goal, dtype=np.float64)
@@ -265,15 +284,3 @@ def _goal(text: str | None, model: Any) -> Array | None:
             )
         pose[:3, :3] = Rotation.from_quat(values[3:]).as_matrix()
     return pose
-
-
-def _numbers(option: str, text: str) -> list[float]:
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise InvalidArgument(
-            f"{option}: '{text}', expected numbers with commas between them, such as 0.5,0,0.4."
-        ) from None
-    if not all(map(math.isfinite, values)):
-        raise InvalidArgument(f"{option}: '{text}', expected finite numbers.")
-    return values

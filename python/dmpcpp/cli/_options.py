@@ -22,28 +22,6 @@ DEFAULT_ENGINE = default_engine()
 SHOWN_ENGINE = "bullet; mujoco without PyBullet"
 
 
-def arm_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Add --arm, --base and --tip."""
-    options = (
-        click.option(
-            "--arm",
-            default="panda",
-            show_default=True,
-            metavar="NAME|FILE.urdf",
-            help="A known arm (panda, iiwa, xarm6) or a URDF file.",
-        ),
-        click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root)."),
-        click.option(
-            "--tip",
-            metavar="LINK",
-            help="Link that follows the motion (default: the URDF's only leaf).",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
 class _Repetition(click.ParamType):
     """A number from 1, or "all"."""
 
@@ -129,7 +107,7 @@ def placing_options(command: Callable[..., None]) -> Callable[..., None]:
         click.option(
             "--scale",
             metavar="S|MIN:MAX",
-            help="Scale of positions, or its range (default: 0.25:1).",
+            help="Scale of positions, or its range (default: 0.25:1; smaller where an arm carries nothing so).",
         ),
         click.option(
             "--anchor-start",
@@ -168,7 +146,7 @@ def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
     anchor = next((name for name in _ANCHORS if name in given), None)
     if anchor is None:
         return {"place": not no_place, "scale": scale}
-    return {"place": _anchored(anchor, given, scale, options["seed"])}
+    return {"place": _anchored(anchor, given, scale or _SCALE, options["seed"])}
 
 
 def _consistent(given: dict[str, Any], no_place: bool) -> None:
@@ -221,10 +199,10 @@ def _numbers(name: str, text: str, *counts: int) -> NDArray[Any]:
     return values
 
 
-def scale_range(text: str | None) -> tuple[float, float]:
-    """Return the smallest and the largest scale: '0.5' or '0.4:0.8'; 0.25 to 1 unless given."""
+def scale_range(text: str | None) -> tuple[float, float] | None:
+    """Return the smallest and the largest scale: '0.5' or '0.4:0.8'; None unless given."""
     if text is None:
-        return _SCALE
+        return None
     low, _, high = text.partition(":")
     try:
         return float(low), float(high or low)

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import click
 
-from dmpcpp.cli._options import arm_options
+from dmpcpp.cli._arm_options import arm_options, follow_option, taken_arm
 
 
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path), metavar="MODEL")
 @arm_options
+@follow_option
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on (0.0.0.0: every interface).")
 @click.option(
     "--port",
@@ -22,7 +24,7 @@ from dmpcpp.cli._options import arm_options
     help="Port; the next free one if it is taken.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the page's address as JSON.")
-def view(model: Path, arm: str, base: str | None, tip: str | None, host: str, port: int, as_json: bool) -> None:
+def view(model: Path, host: str, port: int, as_json: bool, **arm: Any) -> None:
     """Show MODEL, a model file, in the browser: drag its goal and start, change time, gain and kernels.
 
     The motion, the arm's joints and how near they come to their limits follow at once. Ctrl-C ends it.
@@ -30,13 +32,12 @@ def view(model: Path, arm: str, base: str | None, tip: str | None, host: str, po
     Example: dmpcpp view reach.json --arm panda
     """
     from dmpcpp import load
-    from dmpcpp.robot import arms
     from dmpcpp.show import view as library
 
     def ready(address: str) -> None:
         click.echo(json.dumps({"address": address}) if as_json else f"open {address} (Ctrl-C ends it)")
 
-    library.serve(load(model), arms.load(arm, base, tip), host=host, port=port, ready=ready)
+    library.serve(load(model), taken_arm(arm), follow=arm["follow"], host=host, port=port, ready=ready)
 
 
 @click.command()

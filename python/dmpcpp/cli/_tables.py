@@ -11,13 +11,19 @@ from dmpcpp._notes import Note
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from dmpcpp._core import PoseDmp
+    from dmpcpp._core import Arm, PoseDmp
     from dmpcpp.checks import Check
 
 
 def note_style(note: str) -> str:
     """How a line of a recording's history is printed: what warns is not to be overlooked."""
     return {"warning": "bold yellow", "assumed": "yellow", "changed": "dim"}[Note.of(note).kind]
+
+
+def arm_line(arm: Arm) -> str:
+    """Which frame of an arm follows the hand, in which frame, and how the two were chosen."""
+    how = f"chosen: {arm.choice}" if arm.choice else f"{arm.joint_count} joints"
+    return f"'{arm.tip}' follows the hand, in the frame of '{arm.base}' ({how})"
 
 
 def way(model: PoseDmp) -> str:

@@ -6,15 +6,17 @@ import json
 import math
 import sys
 from dataclasses import fields
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._limit_options import accept_option, names
-from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE, arm_options
+from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE
 from dmpcpp.cli._tables import checks_table
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
 @click.argument("plan", type=click.Path(path_type=Path))
 @click.argument("log", type=click.Path(path_type=Path))
 @arm_options
+@follow_option
+@contact_options
 @click.option("--topic", metavar="NAME", help="Topic of the joint states; required if a bag has several.")
 @click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Time unit of a CSV log.")
 @click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Angle unit of a CSV log.")
@@ -53,9 +57,6 @@ if TYPE_CHECKING:
 def verify(
     plan: Path,
     log: Path,
-    arm: str,
-    base: str | None,
-    tip: str | None,
     topic: str | None,
     time_unit: str,
     angle_unit: str,
@@ -64,6 +65,7 @@ def verify(
     accept: tuple[str, ...],
     simulator: str,
     as_json: bool,
+    **arm: Any,
 ) -> None:
     """Compare LOG, recorded on a real arm, with PLAN: the joints.csv of `dmpcpp imitate`, or its folder.
 
@@ -73,11 +75,12 @@ def verify(
     Example: dmpcpp verify dance/joints.csv robot.csv --arm panda --tolerance position_max=0.005
     """
     from dmpcpp import export, simulation, verification
-    from dmpcpp.robot import arms
+    from dmpcpp.robot import Follow
 
     tolerances = _tolerances(stated)
     joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
-    robot = arms.load(arm, base, tip)
+    robot, around = taken_arm(arm), taken_surroundings(arm)
+    engine = simulation.ENGINES.get(simulator)
     options = {"time_unit": time_unit, "angle_unit": angle_unit, "topic": topic}
     result = verification.verify(
         robot,
@@ -85,7 +88,8 @@ def verify(
         verification.read_log(log, **options, joints=robot.joint_names),
         tolerances=tolerances,
         cutoff=low_pass,
-        simulator=simulation.ENGINES.get(simulator),
+        simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
+        follow=Follow.of(arm["follow"] or "pose"),
         accept=names(accept),
     )
     if as_json:

@@ -59,6 +59,7 @@ class Plan:
     twist: Array
     base: str
     tip: str
+    follow: str = "pose"
 
 
 def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | None = None) -> None:
@@ -114,9 +115,16 @@ def read_joints(path: str | PathLike[str]) -> JointSamples:
     return JointSamples(strict_times(values[:, 0]), position, velocity, acceleration, names)
 
 
-def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str = "base", tip: str = "tip") -> None:
-    """Write a pose trajectory as .npz with the arrays `time`, `pose`, `twist` and the texts `units`,
-    `base`, `tip`.
+def write_plan(
+    path: str | PathLike[str],
+    trajectory: PoseMotion,
+    *,
+    base: str = "base",
+    tip: str = "tip",
+    follow: str = "pose",
+) -> None:
+    """Write a pose trajectory as .npz with the arrays `time`, `pose`, `twist` and the texts `units`, `base`, `tip`
+    and `follow`.
 
     Parameters
     ----------
@@ -125,6 +133,8 @@ def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str =
         time (T,), pose (T, 4, 4), twist (T, 6).
     base, tip : str
         The frames: poses are of `tip` in `base`.
+    follow : str
+        What of the poses the arm follows.
 
     Raises
     ------
@@ -137,7 +147,7 @@ def write_plan(path: str | PathLike[str], trajectory: PoseMotion, *, base: str =
     pose = finite("pose", trajectory.pose, (len(time), 4, 4))
     twist = finite("twist", trajectory.twist, (len(time), 6))
     with replacing(path) as beside, beside.open("wb") as file:
-        np.savez(file, time=time, pose=pose, twist=twist, units=_UNITS, base=base, tip=tip)
+        np.savez(file, time=time, pose=pose, twist=twist, units=_UNITS, base=base, tip=tip, follow=follow)
 
 
 def read_plan(path: str | PathLike[str]) -> Plan:
@@ -158,7 +168,7 @@ def read_plan(path: str | PathLike[str]) -> Plan:
     time = strict_times(arrays["time"])
     pose = finite("pose", arrays["pose"], (len(time), 4, 4))
     twist = finite("twist", arrays["twist"], (len(time), 6))
-    return Plan(time, pose, twist, str(arrays["base"]), str(arrays["tip"]))
+    return Plan(time, pose, twist, str(arrays["base"]), str(arrays["tip"]), str(arrays.get("follow", "pose")))
 
 
 def write_tum(path: str | PathLike[str], time: ArrayLike, pose: ArrayLike) -> None:

@@ -55,7 +55,7 @@ def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = 
         format_.remove(folder)
     arm = run.log.arm
     save(run.model, folder / "model.json")
-    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip)
+    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip, follow=str(run.log.follow))
     export.write_joints(folder / "joints.csv", run.joints)
     curves = _curves(run)
     write_record(folder / "execution.npz", _record(run, curves))

@@ -22,10 +22,10 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.learning import Evidence, Lesson, evidence, learn, reproduction, reproduction_checks, teach
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
-from dmpcpp.planning import Engine, Placement, clear_of_itself, solve
+from dmpcpp.planning import Engine, LookedAt, Placement, clear_of_itself, require_free_postures, solve
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import assumptions, limits_summary, require_holdable
+from dmpcpp.robot import Follow, Surroundings, assumptions, following, limits_summary, require_holdable
 from dmpcpp.simulation import ExecutionLog
 
 __all__ = ["STAGES", "Imitation", "PlacementPolicy", "Progress", "clear_of_itself", "imitate"]
@@ -67,6 +67,8 @@ class Imitation(Checked):
         The same joints in the second engine, where both were asked for.
     accepted : tuple of str
         Checks that a person takes although they were not judged.
+    contacts : LookedAt or None
+        What is looked at for contacts, and what is left out.
     """
 
     recording: Recording
@@ -81,6 +83,7 @@ class Imitation(Checked):
     evidence: Evidence
     second_log: ExecutionLog | None = None
     accepted: tuple[str, ...] = ()
+    contacts: LookedAt | None = None
 
     @property
     def noise(self) -> Noise:
@@ -93,6 +96,10 @@ class Imitation(Checked):
             **self.judged(),
             "stages": {name: errors.to_dict() for name, errors in self.stages.items()},
             "arm": self.log.arm.name,
+            "base": self.log.arm.base,
+            "tip": self.log.arm.tip,
+            "follow": str(self.log.follow),
+            "contacts": self.contacts.to_dict() if self.contacts else None,
             "recording": {
                 "source": self.recording.source,
                 "body": self.recording.body,
@@ -122,12 +129,14 @@ def imitate(
     *,
     seed: int = 0,
     place: bool | PlacementPolicy = True,
-    scale: tuple[float, float] = (0.25, 1.0),
+    scale: tuple[float, float] | None = None,
     smooth: bool = True,
     basis_count: int | None = None,
     others: Sequence[Recording] = (),
     simulator: str | None = None,
     accept: Iterable[str] = (),
+    surroundings: Surroundings | None = None,
+    follow: str | Follow | None = None,
     progress: Progress | None = None,
 ) -> Imitation:
     """Carry out a recorded motion on a simulated arm and say how well that went.
@@ -141,8 +150,8 @@ def imitate(
     place : bool or PlacementPolicy
         Search a placement of the motion in the arm's workspace (`retarget.place`), or by the policy given; if False
         the recorded poses are taken as poses of the arm's tip in its base frame.
-    scale : (float, float)
-        Smallest and largest scale of positions that `retarget.place` may choose.
+    scale : (float, float), optional
+        Smallest and largest scale of positions that `retarget.place` may choose; as that has it unless given.
     smooth : bool
         Whether noise found in the recording may be smoothed out in learning; the recording's history says so.
     basis_count : int, optional
@@ -157,6 +166,11 @@ def imitate(
     accept : iterable of str
         Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
         by. One that is judged and fails is never accepted.
+    surroundings : Surroundings, optional
+        Where the floor lies, and which pairs of links may touch.
+    follow : str, optional
+        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
+        stated.
     progress : callable, optional
         See `Progress`.
 
@@ -168,15 +182,18 @@ def imitate(
     MissingDependency
         The simulator is not installed.
     """
+    followed = following(arm, follow)
     tell = progress or (lambda stage, done: None)
-    engines = _engines(simulator or default_engine())
+    engines = _engines(simulator or default_engine(), surroundings or Surroundings())
     accepted = accepted_names(accept)
     require_holdable(arm)
     tell("place", 0.0)
+    looked_at = require_free_postures(arm, engines[0])
+    clear = clear_of_itself(arm, engines[0])
     recording = motion.plausible(motion.continuous(recording))
     if place is True:
-        place = partial(place_motion, seed=seed, scale=scale)
-    placement = place(recording, arm, accept=clear_of_itself(arm, engines[0])) if place else None
+        place = partial(place_motion, seed=seed, scale=scale, follow=followed)
+    placement = place(recording, arm, accept=clear) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
     demonstration = motion.demonstration(placed)
@@ -185,12 +202,14 @@ def imitate(
     model = lesson.model if lesson else learn(demonstration, basis_count, smooth=smooth)
     placed = _noted(placed, found)
     tell("solve", 0.0)
-    solution = solve(model, arm, start=placement.start if placement else None, engine=engines[0])
+    solution = solve(
+        model, arm, start=placement.start if placement else None, accept=clear, engine=engines[0], follow=followed
+    )
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
     require_holdable(arm, joints.position)
     tell("execute", 0.0)
     path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
-    logs = _execute(arm, joints, engines, lambda done: tell("execute", done))
+    logs = _execute(arm, joints, engines, followed, lambda done: tell("execute", done))
     log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
         "demonstration_to_dmp": reproduction(model, demonstration),
@@ -201,7 +220,9 @@ def imitate(
     checks = (*reproduced, *path_checks, *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
-    return Imitation(placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second, accepted)
+    return Imitation(
+        placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second, accepted, looked_at
+    )
 
 
 def _together(
@@ -213,23 +234,26 @@ def _together(
     return teach([first, *placed], basis_count=basis_count, smooth=smooth)
 
 
-def _engines(simulator: str) -> tuple[Engine, ...]:
+def _engines(simulator: str, around: Surroundings) -> tuple[Engine, ...]:
     engines = simulation.ENGINES
-    if simulator == "both":
-        return tuple(engines.values())
-    if simulator not in engines:
+    if simulator not in (*engines, "both"):
         raise InvalidArgument(f"simulator: '{simulator}', expected one of {', '.join(engines)}, both.")
-    return (engines[simulator],)
+    chosen = engines.values() if simulator == "both" else [engines[simulator]]
+    return tuple(partial(engine, floor=around.floor, ignored=around.ignored) for engine in chosen)
 
 
 def _execute(
-    arm: Arm, joints: JointTrajectory, engines: tuple[Engine, ...], tell: Callable[[float], None]
+    arm: Arm, joints: JointTrajectory, engines: tuple[Engine, ...], follow: Follow, tell: Callable[[float], None]
 ) -> list[ExecutionLog]:
     """Return the log of every engine; ``tell`` hears the share of all that is done."""
 
     def run(k: int) -> ExecutionLog:
         return simulation.execute(
-            arm, joints, simulator=engines[k], progress=lambda done, total: tell((k + done / total) / len(engines))
+            arm,
+            joints,
+            simulator=engines[k],
+            follow=follow,
+            progress=lambda done, total: tell((k + done / total) / len(engines)),
         )
 
     return [run(k) for k in range(len(engines))]

@@ -8,15 +8,18 @@ A recorded motion is placed by one similarity transform (`place`, `anchor`); `pl
 """
 
 from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
-from dmpcpp.planning._joints import Engine, Slowed, Solution, clear_of_itself, limit_factor, slowed, solve
+from dmpcpp.planning._clearance import ClearOfItself, LookedAt, clear_of_itself, require_free_postures
+from dmpcpp.planning._joints import Engine, Slowed, Solution, limit_factor, slowed, solve
 from dmpcpp.planning._placement import Accept, Placement
 from dmpcpp.planning._plan import JointPlan, plan, write
 from dmpcpp.planning._search import place, placed
 
 __all__ = [
     "Accept",
+    "ClearOfItself",
     "Engine",
     "JointPlan",
+    "LookedAt",
     "Placement",
     "Reach",
     "Slowed",
@@ -29,6 +32,7 @@ __all__ = [
     "placed",
     "plan",
     "reach",
+    "require_free_postures",
     "slowed",
     "solve",
     "write",

@@ -18,7 +18,7 @@ from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import require_within_reach
+from dmpcpp.robot import POSE, Follow, following, require_within_reach
 
 __all__ = ["Reach", "anchor", "anchor_within_reach", "reach"]
 
@@ -120,6 +120,7 @@ def anchor_within_reach(
     tool_rotation: ArrayLike | None = None,
     seed: int = 0,
     accept: Accept | None = None,
+    follow: str | Follow | None = None,
 ) -> Placement:
     """Search the scale, yaw and, for a point, tool rotation with which an arm carries out an anchored motion.
 
@@ -142,6 +143,8 @@ def anchor_within_reach(
         Of the random tool rotations and of the order.
     accept : JointTrajectory -> bool, optional
         As in `place`.
+    follow : str, optional
+        As in `place`.
 
     Raises
     ------
@@ -154,16 +157,17 @@ def anchor_within_reach(
     scales = np.geomspace(scale[1], scale[0], _SCALES).tolist() if scale[0] < scale[1] else [scale[0]]
     turns = _turns(at, yaw, tool_rotation, np.random.default_rng(seed))
     candidates = _candidates(recording, at, on, scales, turns)
-    found = _carried(candidates, recording, arm, accept)
-    note = reach(found, recording, arm).describe()
+    followed = following(arm, follow)
+    found = _carried(candidates, recording, arm, accept, followed)
+    note = reach(found, recording, arm, followed).describe()
     if found.start is None:
         note += "; no candidate could be followed from end to end"
     return replace(found, note=note)
 
 
-def reach(placement: Placement, recording: Recording, arm: Arm) -> Reach:
+def reach(placement: Placement, recording: Recording, arm: Arm, follow: Follow = POSE) -> Reach:
     """Return how many of a placed motion's poses an arm can take up within its joint limits, each by itself."""
-    batch = InverseKinematics(arm).solve_many(placement.apply(motion.poses(recording)))
+    batch = InverseKinematics(arm, weight=follow.weight).solve_many(placement.apply(motion.poses(recording)))
     missed = [k for k, status in enumerate(batch.status) if status.name != "ok"]
     return Reach(batch.solved, len(recording), missed[0] if missed else None)
 
@@ -211,14 +215,16 @@ def _turns(
     return [turns[k] for k in random.permutation(len(turns))]
 
 
-def _carried(candidates: Iterator[Placement], recording: Recording, arm: Arm, accept: Accept | None) -> Placement:
+def _carried(
+    candidates: Iterator[Placement], recording: Recording, arm: Arm, accept: Accept | None, follow: Follow
+) -> Placement:
     """Return the first that the arm follows from end to end, with its first joints; else the first of those with most
     poses within reach.
     """
     coarse = np.unique(np.linspace(0, len(recording) - 1, _COARSE).round().astype(int))
     poses = motion.poses(recording)[coarse]
     path = to_follow(recording)
-    quick = InverseKinematics(arm, iteration_limit=150, diagnose=False)
+    quick = InverseKinematics(arm, weight=follow.weight, iteration_limit=150, diagnose=False)
     most, followed = -1, Counter[float]()
     for placement in candidates:
         if followed[placement.scale] == _FOLLOWED:
@@ -227,7 +233,7 @@ def _carried(candidates: Iterator[Placement], recording: Recording, arm: Arm, ac
         if solved > most:
             most, best = solved, placement
         if solved == len(poses):
-            start = _start(placement, path, arm, accept)
+            start = _start(placement, path, arm, accept, follow)
             if start is not None:
                 return replace(placement, start=start)
             followed[placement.scale] += 1
@@ -241,8 +247,9 @@ def _solved(poses: Array, quick: InverseKinematics) -> int:
     return solved if solved < few.sum() else solved + quick.solve_many(poses[~few]).solved
 
 
-def _start(placement: Placement, path: Recording, arm: Arm, accept: Accept | None) -> Array | None:
+def _start(placement: Placement, path: Recording, arm: Arm, accept: Accept | None, follow: Follow) -> Array | None:
     """Search joints at the first pose from which the whole path can be followed, to what `accept` accepts."""
-    joints = InverseKinematics(arm).follow(placement.apply(motion.poses(path)), times=path.time, **EFFORT)
+    solver = InverseKinematics(arm, weight=follow.weight)
+    joints = solver.follow(placement.apply(motion.poses(path)), times=path.time, **EFFORT)
     carried = joints.report.complete and (accept is None or accept(joints))
     return joints.position[0] if carried else None

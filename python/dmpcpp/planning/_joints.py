@@ -14,9 +14,10 @@ from dmpcpp import simulation
 from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, PoseTrajectory, duration_factor, stretched
 from dmpcpp._typing import Array
 from dmpcpp.planning._placement import Accept
+from dmpcpp.robot import POSE, Follow
 from dmpcpp.simulation import Simulator
 
-__all__ = ["Engine", "Slowed", "Solution", "clear_of_itself", "limit_factor", "slowed", "solve"]
+__all__ = ["Engine", "Slowed", "Solution", "limit_factor", "slowed", "solve"]
 
 Engine = Callable[..., Simulator]
 
@@ -77,6 +78,7 @@ def solve(
     accept: Accept | None = None,
     slow_down: bool = True,
     engine: Engine | None = None,
+    follow: Follow = POSE,
 ) -> Solution:
     """Roll a model out and find the joints for it, as slow as the limits of the arm ask for.
 
@@ -99,6 +101,8 @@ def solve(
         Take longer where velocity or acceleration limits ask for it.
     engine : callable, optional
         A physics engine; where given, the effort limits hold too.
+    follow : Follow
+        What of the poses counts.
 
     Raises
     ------
@@ -108,7 +112,7 @@ def solve(
     wanted = model.duration if duration is None else duration
     dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * model.options.basis_count)
     motion = model.rollout(goal, wanted, dt)
-    joints = _followed(motion, arm, start, stand, accept)
+    joints = _followed(motion, arm, start, stand, accept, follow)
     if not slow_down:
         return Solution(motion, joints, 1.0)
     slow = slowed(arm, joints, engine)
@@ -142,31 +146,28 @@ def slowed(
     return Slowed(stretched(joints, factor), factor, True)
 
 
-def clear_of_itself(arm: Arm, engine: Engine) -> Accept:
-    """Return a test of joints: the arm touches neither itself nor the floor, looked at along the path."""
-
-    def clear(joints: JointTrajectory) -> bool:
-        every = max(1, len(joints.time) // 100)
-        return not simulation.contacts_along(arm, joints.position[::every], simulator=engine)
-
-    return clear
-
-
 def _followed(
-    path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None, accept: Accept | None
+    path: PoseTrajectory,
+    arm: Arm,
+    start: ArrayLike | None,
+    stand: ArrayLike | None,
+    accept: Accept | None,
+    follow: Follow,
 ) -> JointTrajectory:
     """Return joints along the path that are accepted; else the first complete ones, else those that meet most poses."""
-    best = _complete(path, arm, start, stand)
+    best = _complete(path, arm, start, stand, follow)
     if not best.report.complete or accept is None or stand is not None or accept(best):
         return best
-    solver = InverseKinematics(arm)
+    solver = InverseKinematics(arm, weight=follow.weight)
     others = (solver.follow(path, start=branch.joints) for branch in islice(solver.branches(path.pose[0]), _BRANCHES))
     return next((joints for joints in others if joints.report.complete and accept(joints)), best)
 
 
-def _complete(path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None) -> JointTrajectory:
+def _complete(
+    path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None, follow: Follow
+) -> JointTrajectory:
     found: list[JointTrajectory] = []
-    for joints in _attempts(path, arm, start, stand):
+    for joints in _attempts(path, arm, start, stand, follow):
         if joints.report.complete:
             return joints
         found.append(joints)
@@ -174,17 +175,17 @@ def _complete(path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: Ar
 
 
 def _attempts(
-    path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None
+    path: PoseTrajectory, arm: Arm, start: ArrayLike | None, stand: ArrayLike | None, follow: Follow
 ) -> Iterator[JointTrajectory]:
     """Yield joints along the path: off the position limits, then on them; from the joints given, then from any."""
     inset = _inset(arm)
     if stand is not None:
         if _is_within(inset, stand):
-            yield InverseKinematics(inset).follow(path, start=stand)
-        yield InverseKinematics(arm).follow(path, start=stand)
+            yield InverseKinematics(inset, weight=follow.weight).follow(path, start=stand)
+        yield InverseKinematics(arm, weight=follow.weight).follow(path, start=stand)
         return
     for limited in (inset, arm):
-        solver = InverseKinematics(limited)
+        solver = InverseKinematics(limited, weight=follow.weight)
         if start is not None:
             yield solver.follow(path, start=np.clip(start, limited.lower, limited.upper))
         yield solver.follow(path)

@@ -23,11 +23,15 @@ from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.planning._joints import clear_of_itself, solve
+from dmpcpp.planning._clearance import LookedAt, clear_of_itself, require_free_postures
+from dmpcpp.planning._joints import solve
 from dmpcpp.robot import (
+    POSE,
+    Follow,
     LimitUse,
     assumptions,
     dimension_checks,
+    following,
     limits_summary,
     require_holdable,
     require_within_reach,
@@ -52,6 +56,10 @@ class JointPlan(Checked):
     checks : tuple of Check
     accepted : tuple of str
         Checks that a person takes although they were not judged.
+    contacts : LookedAt or None
+        What is looked at for contacts, and what is left out; None where nothing is.
+    follow : Follow
+        What of the poses counts.
     """
 
     arm: Arm
@@ -60,6 +68,8 @@ class JointPlan(Checked):
     slowdown: float
     checks: tuple[Check, ...]
     accepted: tuple[str, ...] = ()
+    contacts: LookedAt | None = None
+    follow: Follow = POSE
 
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
@@ -68,8 +78,10 @@ class JointPlan(Checked):
             "arm": self.arm.name,
             "base": self.arm.base,
             "tip": self.arm.tip,
+            "follow": str(self.follow),
             "duration": float(self.joints.time[-1]),
             "slowdown": self.slowdown,
+            "contacts": self.contacts.to_dict() if self.contacts else None,
             "samples": len(self.joints.time),
             "goal": self.motion.pose[-1].tolist(),
             "limits": limits_summary(self.arm),
@@ -87,6 +99,7 @@ def plan(
     slow_down: bool = True,
     simulator: Callable[..., Simulator] | None = None,
     accept: Iterable[str] = (),
+    follow: str | Follow | None = None,
 ) -> JointPlan:
     """Lead a model to a goal and find the joints for it.
 
@@ -108,6 +121,9 @@ def plan(
     accept : iterable of str
         Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
         by.
+    follow : str, optional
+        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
+        stated.
 
     Raises
     ------
@@ -120,23 +136,32 @@ def plan(
             f"model: a {type(model).__name__}, expected a PoseDmp: an arm's tip has position and rotation."
         )
     accepted = accepted_names(accept)
+    followed = following(arm, follow)
     wanted = model.duration if duration is None else duration
     if not 0.0 < wanted < np.inf:
         raise InvalidArgument(f"duration: {wanted}, expected a positive number of seconds.")
     end = np.asarray(model.goal if goal is None else goal, dtype=np.float64)
     if end.shape == (4, 4):  # any other is refused by the rollout
         require_within_reach(end[:3, 3], arm, "goal: the end of the motion")
+    looked_at = require_free_postures(arm, simulator) if simulator is not None else None
     accept = clear_of_itself(arm, simulator) if simulator is not None else None
     solution = solve(
-        model, arm, goal=goal, duration=wanted, stand=_stand(start, arm), accept=accept, slow_down=slow_down
+        model,
+        arm,
+        goal=goal,
+        duration=wanted,
+        stand=_stand(start, arm),
+        accept=accept,
+        slow_down=slow_down,
+        follow=followed,
     )
     joints = solution.joints
     require_holdable(arm, joints.position)
     use = LimitUse.of(arm, joints.time, joints.position, joints.velocity, joints.acceleration)
-    checks = (*inverse_kinematics_checks(joints, Tolerances()), *use.checks(), *dimension_checks(arm))
+    checks = (*inverse_kinematics_checks(joints, Tolerances(), followed), *use.checks(), *dimension_checks(arm))
     if simulator is not None:
         checks = (*checks, *path_checks(arm, joints, simulator=simulator))
-    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted)
+    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted, looked_at, followed)
 
 
 def _stand(start: ArrayLike | None, arm: Arm) -> Array | None:
@@ -165,7 +190,9 @@ def write(found: JointPlan, folder: str | PathLike[str]) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for stale in ("summary.json", "joints.csv"):
         (folder / stale).unlink(missing_ok=True)
-    export.write_plan(folder / "plan.npz", found.motion, base=found.arm.base, tip=found.arm.tip)
+    export.write_plan(
+        folder / "plan.npz", found.motion, base=found.arm.base, tip=found.arm.tip, follow=str(found.follow)
+    )
     if found.ok:
         export.write_joints(folder / "joints.csv", found.joints)
     write_text(folder / "summary.json", json.dumps(found.summary(), indent=2, allow_nan=False) + "\n")

@@ -18,16 +18,23 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
+from dmpcpp._core import Arm, InverseKinematics
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.planning._joints import clear_of_itself, limit_factor
+from dmpcpp.planning._clearance import clear_of_itself, require_free_postures
+from dmpcpp.planning._joints import Engine, limit_factor
 from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
+from dmpcpp.planning._shortfall import Shortfall
 from dmpcpp.recordings import Axis, Recording
+from dmpcpp.robot import Follow, farthest_reach, following
 from dmpcpp.simulation import default_simulator
 
 __all__ = ["place", "placed"]
 
+_SCALE = (0.25, 1.0)  # of positions, unless stated
+_SMALLEST_SHARE = 0.15  # of the arm's reach, of the size of a motion at the smallest scale that is tried by itself
+_FLOOR = 0.15  # m, the lowest height of the tip, unless stated
+_FLOOR_SHARE = 0.2  # of the arm's reach, if that is less
 _CLOUD = 20_000  # random configurations whose tip positions tell where the arm reaches
 _COARSE = 24  # poses that stand for the motion in the first tests
 _FOLLOWED = 300  # candidates that are followed from end to end at most
@@ -43,10 +50,11 @@ def place(
     arm: Arm,
     seed: int = 0,
     *,
-    scale: tuple[float, float] = (0.25, 1.0),
-    floor: float = 0.15,
+    scale: tuple[float, float] | None = None,
+    floor: float | None = None,
     candidates: int = 3000,
     accept: Accept | None = None,
+    follow: str | Follow | None = None,
 ) -> Placement:
     """Search a placement of the whole motion in an arm's workspace; the same seed gives the same placement.
 
@@ -58,16 +66,21 @@ def place(
         Mounted upright: z of its base points up.
     seed : int
         Of the random candidates.
-    scale : (float, float)
+    scale : (float, float), optional
         Smallest and largest scale of positions. Larger ones are preferred, as far as the joints keep away
-        from their limits and need not be slowed down out of proportion.
-    floor : float
-        m, the lowest height of the tip above the base; leave room for what the tip carries.
+        from their limits and need not be slowed down out of proportion. Unless given 0.25 to 1, and where nothing is
+        carried so, smaller ones down to where the motion is as large as 15 % of the arm's reach.
+    floor : float, optional
+        m, the lowest height of the tip above the base; leave room for what the tip carries. Unless given 0.15, or a
+        fifth of the arm's reach if that is less.
     candidates : int
         How many random placements are tried; ten times as many if none of them carries the motion.
     accept : JointTrajectory -> bool, optional
         A last word on joints that carry the whole motion, for what kinematics does not see: an arm that
         touches itself, for instance.
+    follow : str, optional
+        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
+        stated.
 
     Returns
     -------
@@ -80,30 +93,52 @@ def place(
         A range of scale that is empty; or no candidate carries the whole motion: the message says how much
         of it the best one carries.
     """
-    if not 0.0 < scale[0] <= scale[1] < np.inf:
+    if scale is not None and not 0.0 < scale[0] <= scale[1] < np.inf:
         raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
     if candidates < 1:
         raise InvalidArgument(f"candidates: {candidates}, expected at least 1.")
-    search = _Search(recording, arm, floor, accept)
+    search = _Search(recording, arm, floor, accept, following(arm, follow))
     random = np.random.default_rng(seed)
-    found = search.carried(search.promising(random, scale, candidates))
-    if not found:
-        found = search.carried(search.promising(random, scale, _MORE * candidates))
+    found, used = [], (0.0, 0.0)
+    for used, count in _attempts(scale, search.smallest_scale, candidates):
+        found = search.carried(search.promising(random, used, count))
+        if found:
+            break
     if not found:
         raise InvalidArgument(
-            f"recording: no placement found with which arm {arm.name!r} carries the whole motion; "
-            f"{search.shortfall()}. Allow a smaller scale, crop the motion, or try another seed."
+            f"recording: no placement found with which arm {arm.name!r} carries the whole motion at a scale of "
+            f"{used[0]:.2g} to {used[1]:.2g}; {search.shortfall()}"
         )
-    best = search.improved(max(found, key=lambda carried: carried.worth), random, scale)
+    best = search.improved(max(found, key=lambda carried: carried.worth), random, used)
     followed = "" if len(search.time) >= len(recording) else f" (followed at {len(search.time)})"
     note = f"carries all {len(recording)} samples{followed}, {best.summary} ({candidates} candidates, seed {seed})"
     return replace(best.placement, note=note)
 
 
+def _attempts(
+    scale: tuple[float, float] | None, smallest: float, count: int
+) -> Iterator[tuple[tuple[float, float], int]]:
+    """Yield ranges of scale and numbers of candidates: as stated, or the usual range and then smaller ones."""
+    usual = scale or _SCALE
+    yield usual, count
+    if scale is None and smallest < _SCALE[0]:
+        yield (smallest, _SCALE[0]), count
+        usual = (smallest, _SCALE[1])
+    yield usual, _MORE * count
+
+
 def placed(
-    recordings: Sequence[Recording], arm: Arm, *, scale: tuple[float, float] = (0.25, 1.0), seed: int = 0
+    recordings: Sequence[Recording],
+    arm: Arm,
+    *,
+    scale: tuple[float, float] | None = None,
+    seed: int = 0,
+    engine: Engine = default_simulator,
+    follow: str | Follow | None = None,
 ) -> list[Recording]:
     """Place the first recording in an arm's workspace, clear of the arm itself, and the others by the same placement.
+
+    `engine` is the one in whose geometry that is looked at; `functools.partial(Bullet, floor=None)` has no floor.
 
     Raises
     ------
@@ -113,8 +148,10 @@ def placed(
         Neither PyBullet nor MuJoCo, which finds contacts, is installed.
     """
     whole = [motion.plausible(motion.continuous(recording)) for recording in recordings]
-    clear = clear_of_itself(arm, default_simulator)
-    placement = place(whole[0], arm, seed, scale=scale, accept=clear)
+    following(arm, follow)
+    require_free_postures(arm, engine)
+    clear = clear_of_itself(arm, engine)
+    placement = place(whole[0], arm, seed, scale=scale, accept=clear, follow=follow)
     return [placement.apply_to(recording) for recording in whole]
 
 
@@ -143,7 +180,9 @@ class _Carried:
 class _Search:
     """One motion and one arm, and the placements found so far."""
 
-    def __init__(self, recording: Recording, arm: Arm, floor: float, accept: Accept | None) -> None:
+    def __init__(
+        self, recording: Recording, arm: Arm, floor: float | None, accept: Accept | None, follow: Follow
+    ) -> None:
         self.recorded = recording.time
         recording = to_follow(recording)
         self.time = recording.time
@@ -152,14 +191,16 @@ class _Search:
         self.centre = (recording.position.min(axis=0) + recording.position.max(axis=0)) / 2
         self.coarse = _far_apart(recording, _middle(recording, self.centre), _COARSE)
         self.arm = arm
-        self.floor = floor
-        self.accept = accept
-        self.solver = InverseKinematics(arm)
+        reach = farthest_reach(arm)[1]
+        self.floor = min(_FLOOR, _FLOOR_SHARE * reach) if floor is None else floor
+        size = float(np.linalg.norm(np.ptp(recording.position, axis=0)))
+        self.smallest_scale = _SMALLEST_SHARE * reach / size if np.isfinite(reach) and size > 0.0 else np.inf
+        self.accept, self.follow = accept, follow
+        self.solver = InverseKinematics(arm, weight=follow.weight)
         # Poses out of reach would spend all of the default's iterations, and most candidates have some.
-        self.quick_solver = InverseKinematics(arm, iteration_limit=150, diagnose=False)
+        self.quick_solver = InverseKinematics(arm, weight=follow.weight, iteration_limit=150, diagnose=False)
         self.closest: Placement | None = None  # by a look at its positions
-        self.most_carried = 0.0
-        self.first_miss = ""  # of the placement that carries most
+        self.most: Shortfall | None = None  # of the placement that carries most
 
     def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the largest candidates of which every coarse pose can be solved, the largest first."""
@@ -197,12 +238,15 @@ class _Search:
         return best
 
     def shortfall(self) -> str:
-        """Return what the best placement lacks, for an error."""
-        if self.most_carried == 1.0:
-            return "what the joints could follow was not accepted"
+        """Return what the best placement lacks and what to do about it, for an error."""
+        refused = getattr(self.accept, "describe", str)()
+        if refused:
+            return f"{refused}."
+        if self.most is not None and self.most.share == 1.0:
+            return "what the joints could follow was not accepted. Try another seed."
         if self.closest is not None:
             self._start(self.closest)
-        return f"the best one carries {100 * self.most_carried:.0f} % of it{self.first_miss}"
+        return self.most.describe(self.follow) if self.most else "no candidate could be tried."
 
     def _candidates(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> Iterator[Placement]:
         """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
@@ -236,23 +280,14 @@ class _Search:
     def _start(self, placement: Placement) -> Array | None:
         """Search joints at the first pose from which the whole path can be followed."""
         joints = self.solver.follow(placement.apply(self.poses), times=self.time, **EFFORT)
-        share = joints.report.solved / len(self.time)
-        if share > self.most_carried:
-            self.most_carried = share
-            self.first_miss = self._first_miss(joints)
+        if self.most is None or joints.report.solved / len(self.time) > self.most.share:
+            self.most = Shortfall.of(joints, placement.apply(self.poses), self.arm, self._frame)
         return joints.position[0] if joints.report.complete else None
 
-    def _first_miss(self, joints: JointTrajectory) -> str:
-        """Return where and by how much the first pose is missed, for an error."""
-        report = joints.report
-        if report.complete:
-            return ""
-        k = report.missed[0][0]
+    def _frame(self, k: int) -> str:
+        """Return which frame of the recording a pose that is followed is, for an error."""
         frame = int(np.searchsorted(self.recorded, self.time[k], side="right")) - 1
-        return (
-            f" and first misses the pose at frame {frame} ({self.time[k]:.4g} s), by "
-            f"{1e3 * report.position_error[k]:.3g} mm and {np.degrees(report.angle_error[k]):.3g} deg"
-        )
+        return f"frame {frame} ({self.time[k]:.4g} s)"
 
     def _carry(self, placement: Placement, start: Array, better_than: float = 0.0) -> _Carried | None:
         """Follow the path from `start`; None unless it is carried, worth more than that, and accepted."""

@@ -44,6 +44,22 @@ def _pieces(path: str, _changed: int) -> tuple[str, ...] | None:
         return None
 
 
+def mesh_points(path: Path) -> Points:
+    """The corners (V, 3) of a mesh in the unit of its file; none where it cannot be read."""
+    try:
+        return _points(str(path), path.stat().st_mtime_ns)
+    except OSError:
+        return np.empty((0, 3))
+
+
+@lru_cache(maxsize=256)
+def _points(path: str, _changed: int) -> Points:
+    try:
+        return _indexed(_read(Path(path)))[0]
+    except (ValueError, IndexError):
+        return np.empty((0, 3))
+
+
 def _cut(points: Points, triangles: Triangles, volume: float, depth: int) -> list[Triangles]:
     """Cut in two where the hulls of the parts hold the least, if that is worth it, and so on."""
     if depth == 0:

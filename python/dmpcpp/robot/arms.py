@@ -7,8 +7,11 @@ import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from dmpcpp import _pybullet_data as _data
-from dmpcpp._core import Arm, LimitSource
+from dmpcpp._core import Arm, LimitSource, so3
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
@@ -102,7 +105,9 @@ def find(name: str) -> Arm:
     )
 
 
-def load(name_or_path: str | Path, base: str | None = None, tip: str | None = None) -> Arm:
+def load(
+    name_or_path: str | Path, base: str | None = None, tip: str | None = None, *, tool: ArrayLike | None = None
+) -> Arm:
     """An arm by name, or from a URDF file.
 
     Parameters
@@ -110,8 +115,28 @@ def load(name_or_path: str | Path, base: str | None = None, tip: str | None = No
     name_or_path : str or Path
         "panda", "iiwa", "xarm6" or the path of a URDF (anything that ends in .urdf or names a file).
     base, tip : str, optional
-        Links between which the arm stands, for a URDF file; by default its only candidates.
+        Links between which the arm stands, for a URDF file; chosen unless given (`Arm.choice` says how).
+    tool : array_like (3,), (6,) or (4, 4), optional
+        The frame that follows the hand, in that of the tip: x, y, z [m], or with roll, pitch and yaw [rad] as a
+        URDF's <origin>, or a pose. The tip itself unless given.
     """
+    arm = _found(name_or_path, base, tip)
+    return arm if tool is None else arm.with_tool(_tool_frame(tool))
+
+
+def _tool_frame(tool: ArrayLike) -> Array:
+    values = np.asarray(tool, dtype=np.float64)
+    if values.shape == (4, 4):
+        return values
+    if values.shape not in ((3,), (6,)):
+        raise InvalidArgument(f"tool: shape {values.shape}, expected x, y, z, or with roll, pitch, yaw, or a pose.")
+    frame = np.eye(4)
+    frame[:3, 3] = values[:3]
+    frame[:3, :3] = so3.from_euler(values[3:] if len(values) == 6 else np.zeros(3), "xyz")
+    return frame
+
+
+def _found(name_or_path: str | Path, base: str | None, tip: str | None) -> Arm:
     path = Path(name_or_path)
     if path.suffix.lower() == ".urdf" or path.is_file():
         return Arm.from_urdf_file(str(path), base=base or "", tip=tip or "")

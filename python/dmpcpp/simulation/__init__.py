@@ -15,6 +15,7 @@ from dmpcpp.simulation._grasp_world import GraspWorld
 from dmpcpp.simulation._mujoco import MuJoCo
 from dmpcpp.simulation._objects import PANDA_HAND, Box, Cylinder, Friction, ParallelGripper
 from dmpcpp.simulation._path_check import PathTolerances, contacts_along, path_checks
+from dmpcpp.simulation._path_clearance import CLEAR, Nearest, nearest_along
 from dmpcpp.simulation._reference import Reference, from_rest_to_rest
 from dmpcpp.simulation._reference import sample as sample
 from dmpcpp.simulation._reference import states_at as states_at
@@ -27,6 +28,7 @@ ENGINES = {"bullet": Bullet, "mujoco": MuJoCo}
 """The engines by the names of the command line."""
 
 __all__ = [
+    "CLEAR",
     "ENGINES",
     "PANDA_HAND",
     "AgreementTolerances",
@@ -43,6 +45,7 @@ __all__ = [
     "Friction",
     "GraspWorld",
     "MuJoCo",
+    "Nearest",
     "ParallelGripper",
     "PathTolerances",
     "Reference",
@@ -56,6 +59,7 @@ __all__ = [
     "from_rest_to_rest",
     "inverse_kinematics_checks",
     "judge",
+    "nearest_along",
     "path_checks",
     "torque_duration_factor",
 ]

@@ -8,7 +8,7 @@ import numpy as np
 
 from dmpcpp._typing import Array
 from dmpcpp.simulation._bullet_world import BulletWorld
-from dmpcpp.simulation._simulator import Clearance, Contact
+from dmpcpp.simulation._simulator import FLOOR, Clearance, Contact
 
 
 class Bullet(BulletWorld):
@@ -20,8 +20,11 @@ class Bullet(BulletWorld):
         Its URDF is loaded with the root at the world's origin; gravity points along -z of the root.
     time_step : float
         [s], > 0.
-    floor : float or None
-        Height of the ground [m] in the root's frame; None for no ground.
+    floor : float, "auto" or None
+        Height of the ground [m] in the root's frame; None for no ground; "auto": 0, or below the lowest collision shape
+        that the arm does not move.
+    ignored : sequence of (str, str)
+        Pairs of links, or a link and "floor", that may touch.
     visuals : bool
         Load what is only drawn as well.
     disturbance : Disturbance, optional
@@ -128,7 +131,9 @@ class Bullet(BulletWorld):
         self.reset(position, np.zeros_like(position))
         self._p.performCollisionDetection(physicsClientId=self._client)
         pairs = [(self._body, a, b) for a, b in self._self_pairs]
-        pairs += [(other, link, -1) for other in self._others for link in self._free_links]
+        pairs += [
+            (other, link, -1) for other in self._others for link in self._free_links if self._may_touch(other, link)
+        ]
         found = (self._clearance(*pair, within) for pair in pairs)
         return [clearance for clearance in found if clearance is not None]
 
@@ -148,6 +153,9 @@ class Bullet(BulletWorld):
             return None
         nearest = min(points, key=lambda point: point[8])
         return Clearance(*self._names_of(nearest), float(nearest[8]))
+
+    def _may_touch(self, other: int, link: int) -> bool:
+        return self._others[other] != FLOOR or link not in self._off_floor
 
     def _names_of(self, point: Any) -> tuple[str, str]:
         link = self._link_names[point[3]]

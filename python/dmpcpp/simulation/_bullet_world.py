@@ -10,11 +10,12 @@ import importlib
 import importlib.metadata
 import sys
 import tempfile
+import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from dmpcpp._core import Arm
 from dmpcpp._quiet import quiet
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
-from dmpcpp.robot import Disturbance, RobotDescription, describe, links_of
+from dmpcpp.robot import Disturbance, Surroundings, contact_rules, describe, floor_height, levers, links_of
 from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, checked_time_step
 
@@ -37,7 +38,8 @@ class BulletWorld:
         arm: Arm,
         time_step: float,
         *,
-        floor: float | None = 0.0,
+        floor: float | Literal["auto"] | None = "auto",
+        ignored: Sequence[tuple[str, str]] = (),
         visuals: bool = False,
         disturbance: Disturbance | None = None,
         obstacles: Sequence[Box] = (),
@@ -45,32 +47,37 @@ class BulletWorld:
         """Load the arm into a world of its own."""
         self.arm, self.time_step = arm, checked_time_step(time_step)
         refuse_names(obstacles, links_of(arm))
+        self._around = Surroundings(floor, tuple(ignored))
+        self.contact_rules = contact_rules(arm, self._around)
         self._p = _pybullet()
         with quiet():
             self._client: int = self._p.connect(self._p.DIRECT)
         self.name = f"PyBullet {importlib.metadata.version('pybullet')}"
         try:
-            self._set_up(floor, visuals, disturbance or Disturbance())
+            self._set_up(visuals, disturbance or Disturbance())
             self._others |= {self._add_box(box): box.name for box in obstacles}
         except BaseException:
             self.close()
             raise
 
-    def _set_up(self, floor: float | None, visuals: bool, disturbance: Disturbance) -> None:
+    def _set_up(self, visuals: bool, disturbance: Disturbance) -> None:
         options = {"numSolverIterations": 100, "deterministicOverlappingPairs": 1}
         self._p.setPhysicsEngineParameter(self.time_step, **options, physicsClientId=self._client)
         self._p.setGravity(0.0, 0.0, GRAVITY, physicsClientId=self._client)
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(self.arm, Path(folder), visuals=visuals, disturbance=disturbance)
             self._body = self._load(description.text, Path(folder, "arm.urdf"))
+            self.levers = levers(ET.fromstring(description.text), self.arm.joint_names)
+            self.floor = floor_height(description.text, self.arm, self._around, self.contact_rules.still)
         self.inertia_repairs = description.repairs
         self._find_joints()
         self._switch_off_damping_and_motors()
         self._add_friction(disturbance)
-        self._ignore_overlaps(description)
+        self._ignore_overlaps()
         self._others: dict[int, str] = {}
-        if floor is not None:
-            self._add_floor(floor, description)
+        self._off_floor: set[int] = set()
+        if self.floor is not None:
+            self._add_floor(self.floor)
         self._read()
 
     def close(self) -> None:
@@ -154,29 +161,30 @@ class BulletWorld:
             p.changeDynamics(body, joint, jointDamping=known + disturbance.damping, physicsClientId=client)
             p.setJointMotorControl2(body, joint, p.VELOCITY_CONTROL, force=disturbance.friction, physicsClientId=client)
 
-    def _ignore_overlaps(self, description: RobotDescription) -> None:
-        """Let links overlap that touch by construction: rigidly joined, or on either side of a joint."""
-        for pair in description.neighbours:
-            a, b = (self._links[name] for name in pair)
-            self._p.setCollisionFilterPair(self._body, self._body, a, b, 0, physicsClientId=self._client)
-        root = self._link_names[-1]
-        standing = next(group for group in description.rigid_groups if root in group)
-        self._standing = [self._links[name] for name in standing]
-        self._base_stands = self.arm.base in standing
+    def _ignore_overlaps(self) -> None:
+        """Let links overlap where the contact rules leave them out."""
+        rules = self.contact_rules
+        for pair in rules.left_out:
+            a, b = (self._links.get(name) for name in pair)
+            if a is not None and b is not None:
+                self._p.setCollisionFilterPair(self._body, self._body, a, b, 0, physicsClientId=self._client)
+        self._standing = [link for name, link in self._links.items() if name in rules.still]
+        self._base_stands = self.arm.base in rules.still
         self._root_in_still_base = np.linalg.inv(self._link_pose(self._base))
-        self._free_links = [link for name, link in self._links.items() if name not in standing]
+        self._free_links = [link for name, link in self._links.items() if name not in rules.still]
         self._self_pairs = [
             (self._links[a], self._links[b])
             for a, b in combinations(self._links, 2)
-            if frozenset((a, b)) not in description.neighbours
+            if frozenset((a, b)) not in rules.left_out
         ]
 
-    def _add_floor(self, height: float, description: RobotDescription) -> None:
+    def _add_floor(self, height: float) -> None:
         p, client = self._p, self._client
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client)
         self._floor = p.createMultiBody(0.0, shape, basePosition=[0.0, 0.0, height], physicsClientId=client)
         self._others[self._floor] = FLOOR
-        for link in self._standing:
+        self._off_floor = {self._links[name] for name in self.contact_rules.off_floor if name in self._links}
+        for link in (*self._standing, *self._off_floor):
             p.setCollisionFilterPair(self._floor, self._body, -1, link, 0, physicsClientId=client)
 
     def _add_box(self, box: Box) -> int:

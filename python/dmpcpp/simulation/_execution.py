@@ -10,7 +10,7 @@ import numpy as np
 
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import Disturbance
+from dmpcpp.robot import POSE, Disturbance, Follow
 from dmpcpp.simulation._control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
 from dmpcpp.simulation._control_loop import ControlLoop, Progress, Recorder, Sensors, by_motors, by_torque
 from dmpcpp.simulation._default import default_simulator
@@ -34,6 +34,7 @@ def execute(
     interpolation: Interpolation = "quintic",
     disturbance: Disturbance | None = None,
     simulator: Callable[..., Simulator] = default_simulator,
+    follow: Follow = POSE,
     progress: Progress | None = None,
 ) -> ExecutionLog:
     """Carry out ``joints`` on ``arm`` under physics; two calls give the same log bit for bit.
@@ -70,6 +71,8 @@ def execute(
     simulator : callable
         ``simulator(arm, time_step)`` gives a ``Simulator``; ``functools.partial(Bullet, floor=None)`` has no
         ground. With a disturbance of the arm also called with ``disturbance=``.
+    follow : Follow
+        What of the tool's pose is judged.
     progress : callable, optional
         Called as ``progress(done, total)`` every hundred steps and at the end.
 
@@ -101,7 +104,7 @@ def execute(
             controller, drive = Servo(mode, hold / rate, hold), by_motors
         recorder = Recorder(len(reference.time), arm.joint_count)
         ControlLoop(plant, controller, drive, Sensors(disturbance, 1.0 / rate), hold).run(reference, recorder, progress)
-        return _log(joints, mode, plant, reference, recorder, disturbance)
+        return _log(joints, mode, plant, reference, recorder, disturbance, follow)
 
 
 def _log(
@@ -111,6 +114,7 @@ def _log(
     reference: Reference,
     recorder: Recorder,
     disturbance: Disturbance,
+    follow: Follow,
 ) -> ExecutionLog:
     done = slice(recorder.done)
     return ExecutionLog(
@@ -129,6 +133,7 @@ def _log(
         **recorder.arrays(),
         contacts=tuple(ContactEvent(k, float(reference.time[k]), c) for k, c in recorder.contacts),
         disturbance=disturbance,
+        follow=follow,
     )
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.metrics import StageErrors, compare
-from dmpcpp.robot import Disturbance, InertiaRepair, repaired_links
+from dmpcpp.robot import POSE, Disturbance, Follow, InertiaRepair, repaired_links
 from dmpcpp.simulation._simulator import Contact
 from dmpcpp.simulation._verdict import Verdict, judge
 
@@ -72,6 +72,8 @@ class ExecutionLog:
     contacts : tuple of ContactEvent
     disturbance : Disturbance
         What the controller did not know.
+    follow : Follow
+        What of the tool's pose is judged.
     """
 
     arm: Arm
@@ -93,6 +95,7 @@ class ExecutionLog:
     tool_pose: Array
     contacts: tuple[ContactEvent, ...]
     disturbance: Disturbance = field(default_factory=Disturbance)
+    follow: Follow = POSE
 
     @property
     def repaired_links(self) -> tuple[str, ...]:

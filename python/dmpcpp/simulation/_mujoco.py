@@ -9,11 +9,12 @@ from __future__ import annotations
 import importlib
 import importlib.metadata
 import tempfile
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -21,7 +22,16 @@ from dmpcpp._core import Arm
 from dmpcpp._quiet import quiet
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency
-from dmpcpp.robot import Disturbance, RobotDescription, describe, links_of
+from dmpcpp.robot import (
+    Disturbance,
+    RobotDescription,
+    Surroundings,
+    contact_rules,
+    describe,
+    floor_height,
+    levers,
+    links_of,
+)
 from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step
 
@@ -29,6 +39,7 @@ _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
 _COMPILER = '<mujoco><compiler fusestatic="false" strippath="false"/></mujoco>'
 """In the URDF: a link that is fixed to another keeps its name, a mesh its folder."""
 _SURROUNDINGS = "dmpcpp_surroundings"  # a body of their own: the root link of a URDF may be called "world"
+_GROUND = "dmpcpp_ground"
 
 
 class MuJoCo:
@@ -43,8 +54,11 @@ class MuJoCo:
         Its URDF is loaded with the root at the world's origin; gravity points along -z of the root.
     time_step : float
         [s], > 0.
-    floor : float or None
-        Height of the ground [m] in the root's frame; None for no ground.
+    floor : float, "auto" or None
+        Height of the ground [m] in the root's frame; None for no ground; "auto": 0, or below the lowest collision shape
+        that the arm does not move.
+    ignored : sequence of (str, str)
+        Pairs of links, or a link and "floor", that may touch.
     disturbance : Disturbance, optional
         In what this arm differs from ``arm``; ``inverse_dynamics`` knows nothing of its damping and friction.
     obstacles : sequence of Box
@@ -63,7 +77,8 @@ class MuJoCo:
         arm: Arm,
         time_step: float,
         *,
-        floor: float | None = 0.0,
+        floor: float | Literal["auto"] | None = "auto",
+        ignored: Sequence[tuple[str, str]] = (),
         disturbance: Disturbance | None = None,
         obstacles: Sequence[Box] = (),
     ) -> None:
@@ -72,16 +87,20 @@ class MuJoCo:
         refuse_names(obstacles, links_of(arm))
         self._m = _mujoco()
         self.name = f"MuJoCo {importlib.metadata.version('mujoco')}"
+        around = Surroundings(floor, tuple(ignored))
+        self.contact_rules = contact_rules(arm, around)
         disturbance = disturbance or Disturbance()
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(arm, Path(folder), disturbance=disturbance, only_the_arm_moves=True)
-            self._model = self._compile(description, floor, obstacles)
+            self.levers = levers(ET.fromstring(description.text), arm.joint_names)
+            self.floor = floor_height(description.text, arm, around, self.contact_rules.still)
+            self._model = self._compile(description, obstacles)
         self.inertia_repairs = description.repairs
         self._damping = self._model.dof_damping.copy()
         self._model.dof_damping[:] += disturbance.damping
         self._model.dof_frictionloss[:] = disturbance.friction
         self._find_joints()
-        self._pairs = list(self._colliding_pairs(description))
+        self._pairs = list(self._colliding_pairs())
         self._limit = np.minimum(arm.effort_limit, np.finfo(np.float64).max)
         self.reset(np.zeros(arm.joint_count), np.zeros(arm.joint_count))
 
@@ -186,32 +205,35 @@ class MuJoCo:
 
     # ---- setting up --------------------------------------------------------------------------------------
 
-    def _compile(self, description: RobotDescription, floor: float | None, obstacles: Sequence[Box]) -> Any:
+    def _compile(self, description: RobotDescription, obstacles: Sequence[Box]) -> Any:
         m = self._m
         try:
             with quiet():  # older ones write warnings to the terminal
-                model = self._spec(description, floor, obstacles).compile()
+                model = self._spec(description, obstacles).compile()
         except (ValueError, m.FatalError) as error:
             reason = " ".join(str(error).split())
             raise InvalidArgument(f"arm.urdf: MuJoCo cannot load '{self.arm.name}': {reason}") from None
         model.opt.timestep = self.time_step
         model.opt.gravity[:] = 0.0, 0.0, GRAVITY
         model.opt.integrator = m.mjtIntegrator.mjINT_EULER
-        model.opt.disableflags |= int(m.mjtDisableBit.mjDSBL_EULERDAMP)
+        # Which pairs may touch the contact rules say, not MuJoCo's own rule about parents and children.
+        model.opt.disableflags |= int(m.mjtDisableBit.mjDSBL_EULERDAMP) | int(m.mjtDisableBit.mjDSBL_FILTERPARENT)
         return model
 
-    def _spec(self, description: RobotDescription, floor: float | None, obstacles: Sequence[Box]) -> Any:
+    def _spec(self, description: RobotDescription, obstacles: Sequence[Box]) -> Any:
         spec = self._m.MjSpec.from_string(description.text.replace("</robot>", f"{_COMPILER}</robot>"))
-        for a, b in sorted(tuple(sorted(pair)) for pair in description.neighbours):
+        for a, b in sorted(tuple(sorted(pair)) for pair in self.contact_rules.left_out if FLOOR not in pair):
             spec.add_exclude(bodyname1=a, bodyname2=b)
-        self._add_surroundings(spec, floor, obstacles)
+        self._add_surroundings(spec, obstacles)
         return spec
 
-    def _add_surroundings(self, spec: Any, floor: float | None, obstacles: Sequence[Box]) -> None:
+    def _add_surroundings(self, spec: Any, obstacles: Sequence[Box]) -> None:
         kinds, still = self._m.mjtGeom, spec.worldbody.add_body(name=_SURROUNDINGS)
-        if floor is not None:
-            size = [_FLOOR_DRAWN, _FLOOR_DRAWN, 1.0]
-            still.add_geom(name=FLOOR, type=kinds.mjGEOM_PLANE, size=size, pos=[0.0, 0.0, floor])
+        if self.floor is not None:
+            ground, size = spec.worldbody.add_body(name=_GROUND), [_FLOOR_DRAWN, _FLOOR_DRAWN, 1.0]
+            ground.add_geom(name=FLOOR, type=kinds.mjGEOM_PLANE, size=size, pos=[0.0, 0.0, self.floor])
+            for link in sorted(self.contact_rules.off_floor):
+                spec.add_exclude(bodyname1=link, bodyname2=_GROUND)
         for box in obstacles:
             half = [0.5 * side for side in box.size]
             still.add_geom(name=box.name, type=kinds.mjGEOM_BOX, size=half, pos=list(box.centre))
@@ -231,13 +253,14 @@ class MuJoCo:
         is_fixed = self._model.body_weldid[self._base] == 0
         return self._pose(self._base) if is_fixed else np.zeros((4, 4))
 
-    def _colliding_pairs(self, description: RobotDescription) -> Iterator[tuple[int, int]]:
-        """Geoms that may touch: not of links joined by construction, and not two that never move."""
-        model = self._model
+    def _colliding_pairs(self) -> Iterator[tuple[int, int]]:
+        """Geoms that may touch: not of links that the contact rules leave out, and not two that never move."""
+        model, rules = self._model, self.contact_rules
+        left_out = rules.left_out | {frozenset((link, _GROUND)) for link in rules.off_floor}
         still = model.body_weldid[model.geom_bodyid] == 0
         for one, other in combinations(range(model.ngeom), 2):
             bodies = frozenset(self._body_of(geom) for geom in (one, other))
-            if not (still[one] and still[other]) and len(bodies) == 2 and bodies not in description.neighbours:
+            if not (still[one] and still[other]) and len(bodies) == 2 and bodies not in left_out:
                 yield one, other
 
     # ---- reading -----------------------------------------------------------------------------------------
@@ -256,7 +279,7 @@ class MuJoCo:
     def _names_of(self, one: int, other: int) -> tuple[str, str]:
         """The links of two geoms, what stands in the world last."""
         names = [self._name_of(geom) for geom in (one, other)]
-        around = [self._body_of(geom) == _SURROUNDINGS for geom in (one, other)]
+        around = [self._body_of(geom) in (_SURROUNDINGS, _GROUND) for geom in (one, other)]
         if any(around):
             return (names[1], names[0]) if around[0] else (names[0], names[1])
         first, last = sorted(names)
@@ -264,7 +287,7 @@ class MuJoCo:
 
     def _name_of(self, geom: int) -> str:
         body = self._body_of(geom)
-        return str(self._model.geom(geom).name) if body == _SURROUNDINGS else body
+        return str(self._model.geom(geom).name) if body in (_SURROUNDINGS, _GROUND) else body
 
     def _body_of(self, geom: int) -> str:
         return str(self._model.body(int(self._model.geom_bodyid[geom])).name)

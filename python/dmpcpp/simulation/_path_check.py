@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from dmpcpp._typing import Array
 from dmpcpp.checks import Check
 from dmpcpp.robot import links_of
 from dmpcpp.simulation._default import default_simulator
+from dmpcpp.simulation._path_clearance import nearest_along
 from dmpcpp.simulation._simulator import Clearance, Contact, Simulator, kind_of
 
 _FAR = 1.0  # m; what is farther away than this is not looked for
@@ -55,7 +56,8 @@ def path_checks(
     tolerances : PathTolerances, optional
         By default nothing may overlap.
     poses : int
-        How many poses of the path are looked at, evenly spread, the last among them; >= 1.
+        How many poses of the path are looked at, evenly spread, the last among them; >= 1. That nothing is nearer than
+        the tolerances is proven for the whole path.
     simulator : callable
         As of ``execute``; ``functools.partial(Bullet, obstacles=[Box(...)])`` has something in the way.
 
@@ -67,22 +69,24 @@ def path_checks(
     """
     tolerances = tolerances or PathTolerances()
     samples = np.unique(np.linspace(0, len(joints.time) - 1, poses).round().astype(int))
+    links = links_of(arm)
     with simulator(arm, 1e-3) as engine:
         found = [(int(k), c) for k in samples for c in engine.clearances_at(joints.position[k], _FAR)]
-    links = links_of(arm)
+        close = nearest_along(engine, joints.position, links, max(asdict(tolerances).values()))
     checks = []
     for kind, what in _NEAR.items():
-        near = [(k, clearance) for k, clearance in found if kind_of(clearance.other, links) == kind]
+        near = [(float(k), clearance) for k, clearance in found if kind_of(clearance.other, links) == kind]
+        near += [(close[kind].sample, close[kind].clearance)] if kind in close else []
         if near or kind != "object":
             checks.append(_check(kind, what, near, joints, getattr(tolerances, f"{kind}_clearance")))
     return tuple(checks)
 
 
-def _check(kind: str, what: str, near: list[tuple[int, Clearance]], joints: JointTrajectory, limit: float) -> Check:
+def _check(kind: str, what: str, near: list[tuple[float, Clearance]], joints: JointTrajectory, limit: float) -> Check:
     name = f"path_{kind}_clearance"
     if not near:
         return Check(name, True, _FAR, limit, "m", None, f"nowhere near {what}")
     k, closest = min(near, key=lambda pair: pair[1].distance)
-    time = float(joints.time[k] - joints.time[0])
+    time = float(np.interp(k, np.arange(len(joints.time)), joints.time) - joints.time[0])
     detail = f"{closest.link} and {closest.other}"
     return Check(name, closest.distance >= limit, closest.distance, limit, "m", time, detail)

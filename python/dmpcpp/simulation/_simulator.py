@@ -11,9 +11,9 @@ import numpy as np
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import InertiaRepair
+from dmpcpp.robot import FLOOR as FLOOR
+from dmpcpp.robot import ContactRules, InertiaRepair
 
-FLOOR = "floor"
 GRAVITY = -9.81
 """m/s^2 along z of the URDF's root."""
 
@@ -79,6 +79,12 @@ class Simulator(Protocol):
     arm: Arm
     time_step: float
     """Duration of one step [s]."""
+    contact_rules: ContactRules
+    """What is not looked at for contacts."""
+    floor: float | None
+    """Height of the ground in the frame of the URDF's root [m]; None for no ground."""
+    levers: Array
+    """(n,) how far each joint moves any point of the robot at most: m a rad, or 1 for one that slides."""
     inertia_repairs: tuple[InertiaRepair, ...]
     """Links whose inertia is not one of a rigid body and was replaced, and bodies that state none."""
 

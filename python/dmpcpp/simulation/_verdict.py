@@ -11,8 +11,8 @@ import numpy as np
 
 from dmpcpp._core import JointTrajectory
 from dmpcpp.checks import Check, Checked, Series
-from dmpcpp.metrics import angle_errors, position_errors
-from dmpcpp.robot import LimitUse, dimension_checks, judged_by_limits, links_of
+from dmpcpp.metrics import position_errors
+from dmpcpp.robot import POSE, Follow, LimitUse, dimension_checks, judged_by_limits, links_of
 from dmpcpp.simulation._simulator import kind_of
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def judge(log: ExecutionLog, tolerances: Tolerances | None = None) -> Verdict:
     checks = [_finite(log)]
     for group in (_tracking, _limits, _contacts):
         checks += group(log, tolerances)
-    checks += [*inverse_kinematics_checks(log.joints, tolerances), *_model(log, tolerances)]
+    checks += [*inverse_kinematics_checks(log.joints, tolerances, log.follow), *_model(log, tolerances)]
     return Verdict(tuple(checks), log.caveat)
 
 
@@ -94,8 +94,10 @@ def _tracking(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     desired, measured = log.desired_tool_pose[log.motion], log.tool_pose[log.motion]
     for name, errors, unit in (
         ("position", position_errors(desired, measured), "m"),
-        ("angle", angle_errors(desired, measured), "rad"),
+        ("angle", log.follow.angle_errors(desired, measured), "rad"),
     ):
+        if errors is None:
+            continue
         rmse = float(np.sqrt(np.mean(errors**2))) if errors.size else math.nan
         limit = getattr(tolerances, f"{name}_rmse")
         yield Check(f"tracking_{name}_rmse", rmse <= limit, rmse, limit, unit)
@@ -130,8 +132,13 @@ def _contacts(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
         yield Check(name, count <= limit, count, limit, "steps", deepest.time if deepest else None, detail)
 
 
-def inverse_kinematics_checks(joints: JointTrajectory, tolerances: Tolerances) -> Iterator[Check]:
-    """Yield ik_position_residual and ik_angle_residual; nothing where the joints were not solved for."""
+def inverse_kinematics_checks(
+    joints: JointTrajectory, tolerances: Tolerances, follow: Follow = POSE
+) -> Iterator[Check]:
+    """Yield ik_position_residual and, where an orientation is followed, ik_angle_residual.
+
+    Nothing where the joints were not solved for.
+    """
     report = getattr(joints, "report", None)
     if report is None or len(report.position_error) == 0:
         return
@@ -139,6 +146,8 @@ def inverse_kinematics_checks(joints: JointTrajectory, tolerances: Tolerances) -
         ("position", report.position_error, "m"),
         ("angle", report.angle_error, "rad"),
     ):
+        if name == "angle" and follow.kind == "position":
+            continue
         series = Series(joints.time - joints.time[0], np.asarray(errors))
         yield series.at_most(f"ik_{name}_residual", getattr(tolerances, f"ik_{name}"), unit)
 

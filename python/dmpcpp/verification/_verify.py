@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.comparison import MotionComparison, compare_motions
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export import JointSamples
-from dmpcpp.robot import assumptions, limits_summary, unjudged
+from dmpcpp.robot import POSE, Follow, assumptions, limits_summary, unjudged
 from dmpcpp.simulation import ExecutionLog, Simulator, Tolerances, judge, path_checks, states_at
 from dmpcpp.verification._joint_log import JointLog
 from dmpcpp.verification._lag import estimate_lag
@@ -90,6 +90,7 @@ def verify(
     cutoff: float = 20.0,
     simulator: Callable[[Arm, float], Simulator] | None = None,
     accept: Iterable[str] = (),
+    follow: Follow = POSE,
 ) -> Verification:
     """Hold the log of a real arm against the plan that it was given.
 
@@ -108,6 +109,8 @@ def verify(
     tolerances : Tolerances, optional
     cutoff : float
         Of the low-pass [Hz], > 0; without effect from 0.45 of the log's rate.
+    follow : Follow
+        What of the tool's pose is judged.
     simulator : callable, optional
         Engine in whose geometry the executed joints are looked at for contacts; None: not looked at.
     accept : iterable of str
@@ -125,7 +128,7 @@ def verify(
     of_arm = log.of(arm.joint_names)
     _refuse_another_unit(arm, of_arm)
     lag = estimate_lag(joints, of_arm)
-    run = _on_the_plans_clock(arm, joints, of_arm, lag, cutoff)
+    run = replace(_on_the_plans_clock(arm, joints, of_arm, lag, cutoff), follow=follow)
     during = run.motion
     checks = (*_log_checks(joints, of_arm, lag), *_checks(run, tolerances, of_arm.torque is not None))
     if simulator is not None:

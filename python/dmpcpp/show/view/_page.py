@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._core import Arm, PoseDmp
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import unjudged
+from dmpcpp.robot import Follow, unjudged
 from dmpcpp.show.scene import ShownArm, draw_path, look_at, quaternion, serving
 from dmpcpp.show.view._session import Session, Shown
 
@@ -36,6 +36,7 @@ def serve(
     port: int = 8080,
     ready: Callable[[str], None] | None = None,
     stop: threading.Event | None = None,
+    follow: str | Follow | None = None,
 ) -> None:
     """Serve the page until `stop` is set, or the program is interrupted.
 
@@ -49,6 +50,9 @@ def serve(
     ready : callable, optional
         Called with the page's address.
     stop : threading.Event, optional
+    follow : str, optional
+        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
+        stated.
 
     Raises
     ------
@@ -57,7 +61,7 @@ def serve(
     MissingDependency
         viser or yourdfpy is not installed.
     """
-    session, stop = Session(model, arm), stop or threading.Event()
+    session, stop = Session(model, arm, follow), stop or threading.Event()
     with serving(host, port) as server:
         page = Page(server, session, arm)
         if ready:

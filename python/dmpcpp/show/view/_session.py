@@ -10,7 +10,7 @@ from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDemonstrat
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning import limit_factor
-from dmpcpp.robot import LimitUse
+from dmpcpp.robot import Follow, LimitUse, following
 
 __all__ = ["Choice", "Session", "Shown"]
 
@@ -76,7 +76,7 @@ class Shown:
 class Session:
     """One person's session with a model and an arm."""
 
-    def __init__(self, model: PoseDmp, arm: Arm) -> None:
+    def __init__(self, model: PoseDmp, arm: Arm, follow: str | Follow | None = None) -> None:
         """Find where the arm stands at the start of the motion as it was demonstrated.
 
         Raises
@@ -86,7 +86,8 @@ class Session:
         """
         if not isinstance(model, PoseDmp):
             raise InvalidArgument(f"model: a {type(model).__name__}, expected a PoseDmp, such as `dmpcpp fit` writes.")
-        self._model, self._arm, self._solver = model, arm, InverseKinematics(arm)
+        self._model, self._arm = model, arm
+        self._solver = InverseKinematics(arm, weight=following(arm, follow).weight)
         own = model.rollout(dt=model.duration / _LEARNED)
         self._demonstration = PoseDemonstration(own.time, own.pose)
         self._stand = self._solver.follow(own).position[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -31,7 +31,7 @@ class Task:
     folder : str
         Where its results go.
     arm : str
-        Name or URDF, as `arms.load` takes it; `base` and `tip` with it.
+        Name or URDF, as `arms.load` takes it; `base`, `tip` and `tool` with it.
     reading, preparation, options : mapping
         What `recordings.load`, `motion.Preparation` and `imitation.imitate` take by keyword.
     """
@@ -41,6 +41,7 @@ class Task:
     arm: str = "panda"
     base: str | None = None
     tip: str | None = None
+    tool: Sequence[float] | None = None
     reading: Mapping[str, Any] = field(default_factory=dict)
     preparation: Mapping[str, Any] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -158,14 +159,17 @@ def carry_out(task: Task) -> Outcome:
 
 def _imitated(task: Task) -> dict[str, Any]:
     from dmpcpp import imitation, motion, recordings
-    from dmpcpp.robot import arms
+    from dmpcpp.robot import Surroundings, arms
     from dmpcpp.show import report
 
     options = dict(task.options)
     wants_report = options.pop("report", False)
+    around = Surroundings.of(options.pop("surroundings", None))
     recording = recordings.load(task.file, **task.reading)
     recording = motion.prepare(recording, motion.Preparation(**task.preparation))
-    run = imitation.imitate(recording, arms.load(task.arm, task.base, task.tip), **options)
+    run = imitation.imitate(
+        recording, arms.load(task.arm, task.base, task.tip, tool=task.tool), surroundings=around, **options
+    )
     imitation.write(run, task.folder)
     if wants_report:
         report.write(task.folder)

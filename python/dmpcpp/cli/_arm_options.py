@@ -1,0 +1,124 @@
+"""The options that choose an arm, for every command that has one; `taken_arm` makes the arm of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dmpcpp.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    from dmpcpp._core import Arm
+    from dmpcpp.robot import Surroundings
+
+__all__ = [
+    "arm_options",
+    "contact_options",
+    "follow_option",
+    "optional_arm_options",
+    "taken_arm",
+    "taken_choice",
+    "taken_surroundings",
+]
+
+_FIELDS = ("base", "tip", "tool")
+
+_CHOICE = (
+    click.option(
+        "--base",
+        metavar="LINK",
+        help="Base link of the arm (default: the URDF's root, above a floating joint below it).",
+    ),
+    click.option(
+        "--tip",
+        metavar="LINK",
+        help="Link that follows the hand (default: the tool at the end of the longest chain; the output names it).",
+    ),
+    click.option(
+        "--tool",
+        metavar="X,Y,Z[,ROLL,PITCH,YAW]",
+        help="Frame that follows the hand instead of the tip, in the tip's frame [m, rad], as a URDF's <origin>.",
+    ),
+)
+
+
+def arm_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --arm, which is the panda unless given, and what belongs to it."""
+    return _decorated(command, default="panda", show_default=True, help="A known arm (`dmpcpp arms`) or a URDF file.")
+
+
+def optional_arm_options(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Return a decorator that adds --arm, which need not be given; `what` is what it is for."""
+    return lambda command: _decorated(command, help=what)
+
+
+def _decorated(command: Callable[..., None], **arm: Any) -> Callable[..., None]:
+    for option in reversed((click.option("--arm", metavar="NAME|FILE.urdf", **arm), *_CHOICE)):
+        command = option(command)
+    return command
+
+
+def follow_option(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --follow."""
+    return click.option(
+        "--follow",
+        metavar="position|axis[:x|y|z]|pose",
+        help="What of the hand the arm follows: its position; and one axis of the tool (default z); or the whole pose "
+        "(default for six joints or more; fewer need one stated).",
+    )(command)
+
+
+def contact_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --floor and --ignore-contact."""
+    options = (
+        click.option(
+            "--floor",
+            metavar="Z|none",
+            help="Height of the floor in the frame of the URDF's root [m], or none (default: 0, or below what stands "
+            "lower).",
+        ),
+        click.option(
+            "--ignore-contact",
+            "ignored",
+            multiple=True,
+            metavar="A,B",
+            help="Two links that may touch, or a link and floor; repeatable. An .srdf beside the URDF is read, too.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def taken_surroundings(options: dict[str, Any]) -> Surroundings:
+    """Take --floor and --ignore-contact out of a command's arguments."""
+    from dmpcpp.cli._numbers import numbers
+    from dmpcpp.robot import Surroundings
+
+    floor, pairs = options.pop("floor"), options.pop("ignored")
+    ignored = tuple(tuple(name.strip() for name in pair.split(",")) for pair in pairs)
+    for pair, text in zip(ignored, pairs, strict=True):
+        if len(pair) != 2 or not all(pair):
+            raise InvalidArgument(f"--ignore-contact: '{text}', expected two links such as head,right_l1.")
+    if floor is None or floor == "none":
+        return Surroundings("auto" if floor is None else None, ignored)
+    return Surroundings(numbers("--floor", floor, 1)[0], ignored)
+
+
+def taken_choice(options: dict[str, Any]) -> dict[str, Any]:
+    """Take what belongs to --arm out of a command's arguments: what `arms.load` takes by keyword, for JSON."""
+    given = {name: options.pop(name) for name in _FIELDS}
+    if given["tool"] is not None:
+        from dmpcpp.cli._numbers import numbers
+
+        given["tool"] = list(numbers("--tool", given["tool"], 3, 6))
+    return given
+
+
+def taken_arm(options: dict[str, Any]) -> Arm:
+    """Take --arm and what belongs to it out of a command's arguments: the arm."""
+    from dmpcpp.robot import arms
+
+    return arms.load(options.pop("arm"), **taken_choice(options))

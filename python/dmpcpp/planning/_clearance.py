@@ -1,0 +1,122 @@
+"""Whether joints keep clear of the arm itself and the floor along their whole path; and what always touches."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dmpcpp import simulation
+from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot import FLOOR, ContactRules, links_of
+from dmpcpp.simulation import Simulator
+
+__all__ = ["ClearOfItself", "LookedAt", "clear_of_itself", "require_free_postures"]
+
+_POSTURES = 40  # random ones that are looked at for pairs that always touch
+_NEARLY_ALL = 0.95
+
+
+class ClearOfItself:
+    """A test of joints: the arm keeps 2 mm off itself and the floor, proven for the whole path.
+
+    Attributes
+    ----------
+    refused : Counter of (str, str)
+        How many of the tested paths each pair stopped.
+    tested : int
+    """
+
+    def __init__(self, arm: Arm, engine: Callable[..., Simulator]) -> None:
+        """Nothing is loaded yet."""
+        self._arm, self._engine, self._links = arm, engine, links_of(arm)
+        self.refused: Counter[tuple[str, str]] = Counter()
+        self.tested = 0
+
+    def __call__(self, joints: JointTrajectory) -> bool:
+        """Whether these keep clear."""
+        self.tested += 1
+        with self._engine(self._arm, 1e-3) as world:
+            near = simulation.nearest_along(world, joints.position, self._links, simulation.CLEAR)
+        close = [one.clearance for one in near.values() if one.clearance.distance < simulation.CLEAR]
+        if close:
+            nearest = min(close, key=lambda one: one.distance)
+            self.refused[nearest.link, nearest.other] += 1
+        return not close
+
+    def describe(self) -> str:
+        """Return which pairs came closer than 2 mm, and on how many of the paths; "" without any."""
+        if not self.refused:
+            return ""
+        named = ", ".join(f"'{a}' and '{b}' on {n}" for (a, b), n in self.refused.most_common(3))
+        return (
+            f"{self.refused.total()} of the {self.tested} paths that the joints could follow bring links closer than "
+            f"{1e3 * simulation.CLEAR:.0f} mm to each other or to the floor: {named}. "
+            f"{self._advice(self.refused.most_common(1)[0][0])}"
+        )
+
+    def _advice(self, pair: tuple[str, str]) -> str:
+        if FLOOR in pair:
+            return "State the real height of the floor, floor=Z, or floor=none without one"
+        return f"If their shapes overlap by construction, state ignore_contact='{pair[0]},{pair[1]}'"
+
+
+@dataclass(frozen=True)
+class LookedAt:
+    """What is looked at for contacts: all pairs but those that the rules leave out, and a floor [m] unless None."""
+
+    rules: ContactRules
+    floor: float | None
+
+    def describe(self) -> str:
+        """Return one line for reports."""
+        floor = "no floor" if self.floor is None else f"floor at z = {round(self.floor, 3) + 0.0:g} m"
+        return f"{self.rules.describe()}; {floor}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {"floor": self.floor, "ignored": [list(pair) for pair in self.rules.stated], "left_out": self.describe()}
+
+
+def clear_of_itself(arm: Arm, engine: Callable[..., Simulator]) -> ClearOfItself:
+    """Return a test of joints: the arm keeps 2 mm off itself and the floor along the whole path."""
+    return ClearOfItself(arm, engine)
+
+
+def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int = 0) -> LookedAt:
+    """Refuse an arm of which two links that it moves against each other, or a link and the floor, always touch.
+
+    Looked at are 40 random postures; a search for joints without contacts would end with none. Returned is what is
+    looked at for contacts and what is not.
+
+    Raises
+    ------
+    InvalidArgument
+        With the pairs, how often they touch, and what to state.
+    """
+    found: Counter[tuple[str, str]] = Counter()
+    with engine(arm, 1e-3) as world:
+        for q in _random_joints(arm, np.random.default_rng(seed), _POSTURES):
+            found.update({(contact.link, contact.other) for contact in world.contacts_at(q)})
+        looked_at = LookedAt(world.contact_rules, world.floor)
+    always = [(pair, n) for pair, n in found.most_common() if n >= _NEARLY_ALL * _POSTURES]
+    if not always:
+        return looked_at
+    named = "; ".join(f"'{a}' and '{b}' in {n} of {_POSTURES}" for (a, b), n in always)
+    stated = " ".join(f"ignore_contact='{a},{b}'" for (a, b), _ in always)
+    floor = " Or state where the floor is: floor=Z, or floor=none." if any(FLOOR in pair for pair, _ in always) else ""
+    raise InvalidArgument(
+        f"arm: links of {arm.name!r} touch in (nearly) every posture: {named} random ones. If they are built so, state "
+        f"{stated}, or disable_collisions in an .srdf beside the URDF.{floor}"
+    )
+
+
+def _random_joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
+    return random.uniform(lower, upper, (count, len(lower)))
