@@ -3,6 +3,7 @@
 #include <dmp/error.hpp>
 
 #include <Eigen/Geometry>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -326,7 +327,7 @@ TEST_CASE("Text that is no URDF is refused, with the words of urdfdom and withou
   CHECK(printed.str().empty());
 }
 
-TEST_CASE("Links that do not exist or could be several are answered with a list") {
+TEST_CASE("Links that do not exist are answered with a list") {
   const std::string text = arms::two_link();
   CHECK(refusal(text, "link0", "hand").find("link0, link1, link2, link3") != std::string::npos);
   CHECK(refusal(text, "world").find("base: no link 'world'") == 0);
@@ -336,7 +337,7 @@ TEST_CASE("Links that do not exist or could be several are answered with a list"
   forked.replace(
       forked.find("</robot>"), 8,
       R"(<link name="other"/><joint name="fork" type="fixed"><parent link="link1"/><child link="other"/></joint></robot>)");
-  CHECK(refusal(forked).find("link3, other") != std::string::npos);
+  CHECK(Arm::from_urdf(forked).tip() == "link3");
   CHECK(Arm::from_urdf(forked, "", "other").joint_count() == 1);
 }
 
@@ -437,4 +438,54 @@ TEST_CASE("Mimic joints that leave no motion are refused by name") {
   };
   CHECK(refuses_with(mimicking(R"(<mimic joint="joint1" multiplier="0"/>)"), "multiplier"));
   CHECK(refuses_with(mimicking(R"(<mimic joint="joint1" multiplier="1" offset="9"/>)"), "no range"));
+}
+
+TEST_CASE("Without a tip the arm's tool is taken and its gripper is held") {
+  const auto hung = [](const char* parent, const char* child, const char* joint) {
+    return std::string("<link name=\"") + child + "\"/>" + joint + "<parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/><origin xyz=\"0.1 0 0\"/></joint>";
+  };
+  std::string text = arms::seven_joints();
+  text.erase(text.rfind("</robot>"));
+  const char* jaw =
+      R"(<joint name="jaw" type="revolute"><limit lower="0" upper="1" velocity="1" effort="1"/>)";
+  text +=
+      hung("link8", "tool0", R"(<joint name="t" type="fixed">)") + hung("link8", "part", jaw) + "</robot>";
+  const Arm arm = Arm::from_urdf(text);
+  CHECK(arm.tip() == "tool0");
+  CHECK(arm.base() == "link0");
+  CHECK(arm.joint_count() == 7);
+  CHECK(arm.choice() == "7 joints, joint1 to joint7; held still: jaw");
+  CHECK(Arm::from_urdf(text, "link0", "part").joint_count() == 8);
+  CHECK(Arm::from_urdf(text, "link0", "part").choice().empty());
+}
+
+TEST_CASE("Two arms are asked about, with a line for each") {
+  const std::string one = arms::seven_joints();
+  std::string text = one;
+  text.erase(text.rfind("</robot>"));
+  std::string other = one.substr(one.find("<link name=\"link1\""));
+  for (std::size_t at = 0; (at = other.find("link", at)) != std::string::npos; at += 5)
+    if (std::isdigit(static_cast<unsigned char>(other[at + 4])) && other[at + 4] != '0')
+      other.insert(at, "r");
+  for (std::size_t at = 0; (at = other.find("name=\"joint", at)) != std::string::npos; at += 8)
+    other.insert(at + 6, "r");
+  const std::string message = refusal(text + other);
+  CHECK(message.find("2 arms or legs could be meant") != std::string::npos);
+  CHECK(message.find("base='link0' tip='link8' (7 joints, joint1 to joint7)") != std::string::npos);
+  CHECK(message.find("base='link0' tip='rlink8' (7 joints, rjoint1 to rjoint7)") != std::string::npos);
+}
+
+TEST_CASE("A tool is a frame fixed to the tip, in the chain and in the text") {
+  const Arm arm = Arm::from_urdf(arms::seven_joints());
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
+  tool.translate(Eigen::Vector3d(0.02, -0.01, 0.15))
+      .rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.6, 0, 0.8)));
+  const Arm longer = arm.with_tool(tool.matrix());
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(7, -0.5, 0.1);
+  const Eigen::Matrix4d wanted = arm.forward_kinematics(q) * tool.matrix();
+  CHECK(longer.tip() == arm.tip() + "_tool");
+  CHECK((longer.forward_kinematics(q) - wanted).norm() < 1e-14);
+  CHECK((Arm::from_urdf(longer.urdf(), "", longer.tip()).forward_kinematics(q) - wanted).norm() < 1e-14);
+  CHECK_THROWS_AS(arm.with_tool(Eigen::Matrix4d::Zero()), dmp::InvalidArgument);
 }

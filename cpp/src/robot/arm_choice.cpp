@@ -94,8 +94,9 @@ class Choice {
   Choice(const urdf::ModelInterface& model, const urdf::Link& base)
       : twigs_(twigs_below(model, base)), chains_(chains_of(twigs_)), base_(base.name) {}
 
+  bool has_arm() const { return !chains_.empty(); }
+
   ArmChoice made() const {
-    if (chains_.empty()) throw InvalidArgument("urdf: no moving joint of an arm below '" + base_ + "'.");
     const auto& [joints, ends] = chains_.front();
     if (const auto arms = in_question(); arms.size() > 1) ask(arms);
     const auto [tool, is_named] = tool_of(ends);
@@ -188,6 +189,16 @@ std::string start_of(const urdf::ModelInterface& model) {
   return model.getRoot()->name;
 }
 
+/// A robot without an arm's joint, from end to end: whoever reads its joints says what is wrong with them.
+ArmChoice whole(const urdf::ModelInterface& model, const std::string& base) {
+  std::vector<std::string> ends;
+  for (const auto& [name, link] : model.links_)
+    if (link->child_links.empty()) ends.push_back(name);
+  const std::string from = base.empty() ? model.getRoot()->name : base;
+  if (ends.size() != 1) throw InvalidArgument("urdf: no moving joint of an arm below '" + from + "'.");
+  return {from, ends.front(), ""};
+}
+
 }  // namespace
 
 ArmChoice choose_arm(const urdf::ModelInterface& model, const std::string& base, const std::string& tip) {
@@ -197,7 +208,9 @@ ArmChoice choose_arm(const urdf::ModelInterface& model, const std::string& base,
     find_link(model, choice.base, "base");
     return choice;
   }
-  return Choice(model, *find_link(model, base.empty() ? start_of(model) : base, "base")).made();
+  const std::string start = base.empty() ? start_of(model) : base;
+  const Choice choice(model, *find_link(model, start, "base"));
+  return choice.has_arm() ? choice.made() : whole(model, base);
 }
 
 }  // namespace dmp::detail

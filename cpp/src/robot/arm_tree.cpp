@@ -94,7 +94,7 @@ class Tree {
   }
 
   bool is_gripper(const urdf::Joint& joint, std::size_t before, bool names_tell) const {
-    if (follows(joint) || masters_.count(joint.name)) return true;
+    if (follows(joint) || masters_.count(joint.name)) return before >= 2;
     const bool by_name = names_tell && is_named_gripper(joint);
     return is_short_slide(joint) ? (by_name || before >= 4) : (by_name && before >= 3);
   }
