@@ -32,50 +32,22 @@ void enum_attribute(py::class_<DmpOptions>& options, const char* name, Enum DmpO
       doc);
 }
 
+template <class Enum>
+void bind_enum(py::module_& m, const char* name, const char* doc) {
+  py::native_enum<Enum> type(m, name, "enum.Enum", doc);
+  for (const auto& [value, text] : names_of(Enum{})) type.value(text, value);
+  type.finalize();
+}
+
 void bind_enums(py::module_& m) {
-  py::native_enum<Kernels>(m, "Kernels", "enum.Enum", "How the kernels lie over the phase.")
-      .value("equal_in_time", Kernels::equal_in_time)
-      .value("source", Kernels::source)
-      .finalize();
-  py::native_enum<Regression>(m, "Regression", "enum.Enum", "How the weights are found.")
-      .value("lwr", Regression::lwr)
-      .value("ridge", Regression::ridge)
-      .value("automatic", Regression::automatic)
-      .finalize();
-  py::native_enum<Scaling>(m, "Scaling", "enum.Enum",
-                           "By what the forcing term is multiplied when start and goal change.")
-      .value("none", Scaling::none)
-      .value("per_axis", Scaling::per_axis)
-      .value("per_axis_relative", Scaling::per_axis_relative)
-      .value("rotation_dilation", Scaling::rotation_dilation)
-      .finalize();
-  py::native_enum<OrientationForm>(m, "OrientationForm", "enum.Enum",
-                                   "The equation of motion of orientations.")
-      .value("automatic", OrientationForm::automatic)
-      .value("ude", OrientationForm::ude)
-      .value("log_linear", OrientationForm::log_linear)
-      .value("turning", OrientationForm::turning)
-      .finalize();
-  py::native_enum<LogBranch>(m, "LogBranch", "enum.Enum",
-                             "Log(Rg R^T) followed through pi, or the shortest rotation.")
-      .value("lifted", LogBranch::lifted)
-      .value("principal", LogBranch::principal)
-      .finalize();
-  py::native_enum<Derivatives>(m, "Derivatives", "enum.Enum",
-                               "Velocities and accelerations of a demonstration.")
-      .value("interpolate", Derivatives::interpolate)
-      .value("smooth", Derivatives::smooth)
-      .value("gradient", Derivatives::gradient)
-      .value("automatic", Derivatives::automatic)
-      .finalize();
-  py::native_enum<Start>(m, "Start", "enum.Enum", "What a rollout starts with.")
-      .value("demonstrated", Start::demonstrated)
-      .value("rest", Start::rest)
-      .finalize();
-  py::native_enum<Integrator>(m, "Integrator", "enum.Enum", "How a run steps.")
-      .value("exact", Integrator::exact)
-      .value("semi_implicit_euler", Integrator::semi_implicit_euler)
-      .finalize();
+  bind_enum<Kernels>(m, "Kernels", "How the kernels lie over the phase.");
+  bind_enum<Regression>(m, "Regression", "How the weights are found.");
+  bind_enum<Scaling>(m, "Scaling", "By what the forcing term is multiplied when start and goal change.");
+  bind_enum<OrientationForm>(m, "OrientationForm", "The equation of motion of orientations.");
+  bind_enum<LogBranch>(m, "LogBranch", "Log(Rg R^T) followed through pi, or the shortest rotation.");
+  bind_enum<Derivatives>(m, "Derivatives", "Velocities and accelerations of a demonstration.");
+  bind_enum<Start>(m, "Start", "What a rollout starts with.");
+  bind_enum<Integrator>(m, "Integrator", "How a run steps.");
 }
 
 void set_fields(DmpOptions& options, const py::kwargs& fields) {

@@ -3,10 +3,12 @@
 #include <dmp/error.hpp>
 #include <dmp/options.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 using namespace dmp;
@@ -93,4 +95,25 @@ TEST_CASE("validate names the field that is out of range") {
   options = {};
   options.tempo_filter = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal_of(options).rfind("options.tempo_filter: nan", 0) == 0);
+}
+
+TEST_CASE("every option has a name of its own, and so has every value of an enumeration") {
+  std::vector<std::string> names;
+  std::apply([&](const auto&... field) { (names.push_back(field.first), ...); }, DmpOptions::fields());
+  CHECK(names.size() == 21);
+  std::sort(names.begin(), names.end());
+  CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+  const auto complete = [](auto last) {
+    int next = 0;
+    for (const auto& [value, name] : names_of(last)) CHECK(static_cast<int>(value) == next++);
+    return next == static_cast<int>(last) + 1;
+  };
+  CHECK(complete(Kernels::source));
+  CHECK(complete(Regression::automatic));
+  CHECK(complete(Scaling::rotation_dilation));
+  CHECK(complete(OrientationForm::turning));
+  CHECK(complete(LogBranch::principal));
+  CHECK(complete(Derivatives::automatic));
+  CHECK(complete(Start::rest));
+  CHECK(complete(Integrator::semi_implicit_euler));
 }

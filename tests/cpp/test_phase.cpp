@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 #include <dmp/error.hpp>
+#include <dmp/options.hpp>
 #include <dmp/phase.hpp>
 
 #include <cmath>
@@ -97,4 +98,32 @@ TEST_CASE("what is no duration, error or gain is refused and changes nothing") {
   CHECK_FALSE(phase.set_tracking_error(INFINITY));
   CHECK(phase.duration() == 1.0);
   CHECK(phase.speed() == 1.0);
+}
+
+TEST_CASE("the end is met within rounding, and a way across it comes apart there") {
+  Phase phase(2.0, 4.6);
+  CHECK_FALSE(phase.ended());
+  CHECK(phase.before_end(0.4) == 0.4);
+  CHECK(phase.before_end(1.0) == 1.0);
+  CHECK(phase.before_end(1.5) == 1.0);
+  phase.advance(1.5);
+  CHECK(phase.before_end(0.5) == 0.25);
+  phase.advance(0.5 - 1e-10);
+  CHECK(phase.ended());
+  CHECK_FALSE(phase.past_end());
+  CHECK(phase.before_end(0.5) == 0.5);
+  phase.advance(1e-3);
+  CHECK(phase.past_end());
+}
+
+TEST_CASE("a clock of options has their decay, filter and gain") {
+  DmpOptions options;
+  options.alpha_x = 3.0;
+  options.tempo_filter = 0.0;
+  options.phase_stop = 4.0;
+  Phase phase(2.0, options);
+  phase.advance(1.0);
+  CHECK(phase.x() == doctest::Approx(std::exp(-1.5)));
+  phase.set_tracking_error(0.25);
+  CHECK(phase.speed() == 0.25);
 }

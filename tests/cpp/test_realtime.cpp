@@ -39,7 +39,9 @@ TEST_CASE("the counter counts" * doctest::skip(!COUNTS_MALLOC)) {
 TEST_CASE("a run of positions and orientations takes no memory in the loop, whatever happens on the way") {
   const PoseDemonstration demonstration = pose(300, 2.0);
   for (const Scaling scaling : {Scaling::none, Scaling::per_axis_relative, Scaling::rotation_dilation})
-    for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear}) {
+    for (const OrientationForm form :
+         {OrientationForm::ude, OrientationForm::log_linear, OrientationForm::turning}) {
+      if (form == OrientationForm::turning && scaling != Scaling::none) continue;  // refused
       PoseRun run(PoseDmp::fit(demonstration, options_of(scaling, form)));
       Eigen::Matrix4d goal = run.goal();
       goal(0, 3) += .1;
@@ -93,7 +95,8 @@ bool denormal(const Eigen::Ref<const Eigen::MatrixXd>& values) {
 TEST_CASE("a run that is kept going for ever comes to rest, and nothing decays into denormal numbers") {
   for (const Integrator integrator : {Integrator::exact, Integrator::semi_implicit_euler})
     for (const bool force_after_end : {false, true})
-      for (const OrientationForm form : {OrientationForm::ude, OrientationForm::log_linear})
+      for (const OrientationForm form :
+           {OrientationForm::ude, OrientationForm::log_linear, OrientationForm::turning})
         for (const bool to_identity : {false, true}) {
           DmpOptions options;
           options.integrator = integrator;
@@ -183,8 +186,9 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
       {"mailbox", "post take"},
       {"orientation_dmp", "angular_acceleration angular_velocity quaternion rotation"},
       {"phase",
-       "advance advance duration increment pause paused reset resume s set_duration set_tracking_error speed "
-       "speed_rate time x"},
+       "advance advance before_end duration ended increment past_end pause paused reset resume s "
+       "set_duration "
+       "set_tracking_error speed speed_rate time x"},
       {"pose_dmp", "acceleration pose position quaternion rotation twist"},
       {"pose_gripper_dmp", "acceleration gripper gripper_velocity pose twist"},
       {"so3", "distance exp exp_quaternion hat left_jacobian left_jacobian_inverse lifted_log log log vee"},

@@ -3,6 +3,9 @@
 #include <dmp/export.hpp>
 
 #include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace dmp {
 
@@ -41,6 +44,54 @@ enum class Derivatives { interpolate, smooth, gradient, automatic };
 
 /// Log(Rg R^T): followed through pi and 2 pi, or the shortest rotation at every moment.
 enum class LogBranch { lifted, principal };
+
+/// The names of an enumeration's values, as model files and Python have them.
+template <class Enum>
+using Names = std::vector<std::pair<Enum, const char*>>;
+
+inline const Names<Kernels>& names_of(Kernels) {
+  static const Names<Kernels> names{{Kernels::equal_in_time, "equal_in_time"}, {Kernels::source, "source"}};
+  return names;
+}
+inline const Names<Regression>& names_of(Regression) {
+  static const Names<Regression> names{
+      {Regression::lwr, "lwr"}, {Regression::ridge, "ridge"}, {Regression::automatic, "automatic"}};
+  return names;
+}
+inline const Names<Scaling>& names_of(Scaling) {
+  static const Names<Scaling> names{{Scaling::none, "none"},
+                                    {Scaling::per_axis, "per_axis"},
+                                    {Scaling::per_axis_relative, "per_axis_relative"},
+                                    {Scaling::rotation_dilation, "rotation_dilation"}};
+  return names;
+}
+inline const Names<OrientationForm>& names_of(OrientationForm) {
+  static const Names<OrientationForm> names{{OrientationForm::automatic, "automatic"},
+                                            {OrientationForm::ude, "ude"},
+                                            {OrientationForm::log_linear, "log_linear"},
+                                            {OrientationForm::turning, "turning"}};
+  return names;
+}
+inline const Names<LogBranch>& names_of(LogBranch) {
+  static const Names<LogBranch> names{{LogBranch::lifted, "lifted"}, {LogBranch::principal, "principal"}};
+  return names;
+}
+inline const Names<Derivatives>& names_of(Derivatives) {
+  static const Names<Derivatives> names{{Derivatives::interpolate, "interpolate"},
+                                        {Derivatives::smooth, "smooth"},
+                                        {Derivatives::gradient, "gradient"},
+                                        {Derivatives::automatic, "automatic"}};
+  return names;
+}
+inline const Names<Start>& names_of(Start) {
+  static const Names<Start> names{{Start::demonstrated, "demonstrated"}, {Start::rest, "rest"}};
+  return names;
+}
+inline const Names<Integrator>& names_of(Integrator) {
+  static const Names<Integrator> names{{Integrator::exact, "exact"},
+                                       {Integrator::semi_implicit_euler, "semi_implicit_euler"}};
+  return names;
+}
 
 /// Every choice there is in a Dmp, OrientationDmp or PoseDmp. What is automatic, `fit` finds in the
 /// demonstrations, and the options of the model say what it was.
@@ -81,6 +132,23 @@ struct DmpOptions {
   /// The equations of the thesis proposal of 2019, read at tau = 1 with its errata E1, E6 and E7 corrected:
   /// docs/formulation.md.
   DMP_EXPORT static DmpOptions source();
+
+  /// Every field once, by its name in a model file: files, comparison and checks go by this list.
+  static constexpr auto fields() {
+    using O = DmpOptions;
+    return std::make_tuple(
+        std::pair("basis_count", &O::basis_count), std::pair("alpha", &O::alpha), std::pair("beta", &O::beta),
+        std::pair("orientation_alpha", &O::orientation_alpha),
+        std::pair("orientation_beta", &O::orientation_beta), std::pair("alpha_x", &O::alpha_x),
+        std::pair("kernels", &O::kernels), std::pair("overlap", &O::overlap),
+        std::pair("regression", &O::regression), std::pair("passes", &O::passes),
+        std::pair("ridge", &O::ridge), std::pair("scaling", &O::scaling),
+        std::pair("orientation_form", &O::orientation_form), std::pair("log_branch", &O::log_branch),
+        std::pair("derivatives", &O::derivatives), std::pair("start", &O::start),
+        std::pair("integrator", &O::integrator), std::pair("force_after_end", &O::force_after_end),
+        std::pair("goal_filter", &O::goal_filter), std::pair("tempo_filter", &O::tempo_filter),
+        std::pair("phase_stop", &O::phase_stop));
+  }
 };
 
 /// Whether all fields are equal; one that is not given differs from one that states its default.

@@ -5,6 +5,8 @@
 
 namespace dmp {
 
+struct DmpOptions;
+
 /// The canonical system: tau sd = 1 and tau xd = -alpha_x x, x = exp(-alpha_x s) (Ijspeert et al. 2013,
 /// Neural Computation 25(2), canonical system; tau is the duration in s). s runs from 0 to 1 over the motion
 /// and on beyond it.
@@ -19,6 +21,9 @@ class DMP_EXPORT Phase {
   /// InvalidArgument unless duration is 1e-9 to 1e15 s, alpha_x finite and positive, filter and stop_gain
   /// finite and not negative.
   Phase(double duration, double alpha_x, double filter = 0.0, double stop_gain = 0.0);
+
+  /// The clock that resolved options describe. Throws InvalidArgument as above.
+  Phase(double duration, const DmpOptions& options);
 
   double s() const noexcept DMP_REALTIME { return s_; }
   double x() const noexcept DMP_REALTIME;
@@ -39,6 +44,14 @@ class DMP_EXPORT Phase {
   void resume() noexcept DMP_REALTIME;
   bool paused() const noexcept DMP_REALTIME { return paused_; }
 
+  /// Whether s has come to the end of the motion, 1 but for rounding; and whether it lies beyond it.
+  bool ended() const noexcept DMP_REALTIME { return s_ >= 1.0 - kRounding; }
+  bool past_end() const noexcept DMP_REALTIME { return s_ > 1.0 + kRounding; }
+  /// How much of a way on from here lies before the end; all of it where it does not lead across the end.
+  double before_end(double way) const noexcept DMP_REALTIME {
+    return !ended() && s_ + way > 1.0 + kRounding ? 1.0 - s_ : way;
+  }
+
   /// How far s will go in dt seconds.
   double increment(double dt) const noexcept DMP_REALTIME;
   /// Moves time, speed and s on by dt.
@@ -49,6 +62,8 @@ class DMP_EXPORT Phase {
   void reset() noexcept DMP_REALTIME;
 
  private:
+  static constexpr double kRounding = 1e-9;
+
   void retarget() noexcept;
   bool settled() const noexcept { return speed_ == target_speed_ && speed_rate_ == 0.0; }
 

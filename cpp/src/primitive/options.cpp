@@ -37,7 +37,7 @@ struct EnumeratorCheck {
   template <class Value>
   void operator()(const char*, const Value&) const {}
   template <class Enum>
-  void operator()(const char* name, Enum value, const detail::Names<Enum>& names) const {
+  void operator()(const char* name, Enum value, const Names<Enum>& names) const {
     for (const auto& [known, text] : names)
       if (known == value) return;
     throw InvalidArgument(std::string("options.") + name + ": " + std::to_string(static_cast<int>(value)) +
@@ -55,7 +55,7 @@ void require_whole(int value, int most, const char* name, const char* of) {
 
 bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept {
   return std::apply([&](const auto&... field) { return ((a.*field.second == b.*field.second) && ...); },
-                    detail::option_fields());
+                    DmpOptions::fields());
 }
 
 void DmpOptions::validate() const { resolved(); }

@@ -1,4 +1,5 @@
 #include <dmp/error.hpp>
+#include <dmp/options.hpp>
 #include <dmp/phase.hpp>
 
 #include <cmath>
@@ -29,6 +30,9 @@ Phase::Phase(double duration, double alpha_x, double filter, double stop_gain)
   require(std::isfinite(filter) && filter >= 0.0, "tempo_filter", filter, "a time constant in s, 0 or more");
   require(std::isfinite(stop_gain) && stop_gain >= 0.0, "phase_stop", stop_gain, "a gain, 0 or more");
 }
+
+Phase::Phase(double duration, const DmpOptions& options)
+    : Phase(duration, options.alpha_x, options.tempo_filter, options.phase_stop) {}
 
 double Phase::x() const noexcept { return std::exp(-alpha_x_ * s_); }
 

@@ -28,7 +28,7 @@ class Runner {
   /// `forcing` must outlive the runner.
   Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, const Ends<Space>& ends)
       : forcing_(&forcing),
-        phase_(duration, options.alpha_x, options.tempo_filter, options.phase_stop),
+        phase_(duration, options),
         system_(options, ends),
         nodes_(RowMatrix::Zero(3, forcing.dimension())),
         drive_(RowMatrix::Zero(3, forcing.dimension())),
@@ -53,7 +53,7 @@ class Runner {
     coupling_ = coupling;
     advance(way);
     phase_.advance(dt, way);
-    status_ = !publish() ? Status::not_finite : ended() ? Status::finished : Status::running;
+    status_ = !publish() ? Status::not_finite : phase_.ended() ? Status::finished : Status::running;
     coupling_ = nullptr;
     return status_;
   }
@@ -91,7 +91,6 @@ class Runner {
   }
 
  private:
-  static constexpr double kRounding = 1e-9;
   static constexpr double kFarthest = 10.0;  // durations in one call: bounds the work
   static constexpr double kNowhere = -1.0;
   enum Node : Eigen::Index { kStart, kMiddle, kEnd };
@@ -101,12 +100,11 @@ class Runner {
   }
 
   bool at_start() const noexcept { return phase_.time() == 0.0; }
-  bool ended() const noexcept { return phase_.s() >= 1.0 - kRounding; }
   Status accepted(bool accepted) const noexcept { return accepted ? status_ : Status::invalid_input; }
 
   /// Outputs from the state as it is; false, and the last ones stay, if they are not finite.
   bool publish() noexcept {
-    const bool on = force_after_end_ || phase_.s() <= 1.0 + kRounding;
+    const bool on = force_after_end_ || !phase_.past_end();
     if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
     evaluated_at_ = on ? phase_.s() : kNowhere;
     system_.set_phase(phase_.s());
@@ -163,19 +161,14 @@ class Runner {
   // The way that a step goes, in pieces.
 
   void advance(double way) noexcept {
-    double s = phase_.s();
-    const bool straddles = s < 1.0 - kRounding && s + way > 1.0 + kRounding;
-    if (straddles && !force_after_end_) {
-      advance_evenly(s, 1.0 - s);
-      way -= 1.0 - s;
-      s = 1.0;
-    }
-    advance_evenly(s, way);
+    const bool on = force_after_end_ || !phase_.ended();
+    const double before_end = force_after_end_ ? way : phase_.before_end(way);
+    advance_evenly(phase_.s(), before_end, on);
+    if (before_end < way) advance_evenly(1.0, way - before_end, false);
   }
 
-  void advance_evenly(double s, double way) noexcept {
+  void advance_evenly(double s, double way, bool on) noexcept {
     if (way <= 0.0) return;
-    const bool on = force_after_end_ || s < 1.0 - kRounding;
     if (way <= largest_step_) return advance_once(s, way, on);
     const int pieces = std::max(1, static_cast<int>(std::ceil(way / largest_step_ - 1e-6)));
     const double piece = way / pieces;
