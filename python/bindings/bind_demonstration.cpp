@@ -15,7 +15,6 @@ namespace {
 void bind_trajectories(py::module_& m) {
   bind_trajectory<VectorSpace>(m);
   bind_trajectory<RotationSpace>(m);
-  bind_trajectory<PoseGripperSpace>(m);
   using P = PoseTrajectory;
   bind_trajectory<PoseSpace>(m)
       .def_property_readonly(
@@ -37,37 +36,79 @@ void bind_trajectories(py::module_& m) {
           "(T, 3, 3)");
 }
 
-void bind_pose_gripper_demonstration(py::module_& m) {
-  using D = PoseGripperDemonstration;
-  py::class_<D>(m, "PoseGripperDemonstration", "The pose of a tool and its gripper as they were recorded.")
-      .def(py::init([](const Array& times, const Array& poses, const Array& gripper) {
-             return D(to_vector(times, "times"), to_poses(poses, "poses"), to_matrix(gripper, "gripper"));
+/// Noise of demonstrations that are no product.
+template <class D>
+void def_cleaning(py::class_<D>& demonstration) {
+  demonstration
+      .def(
+          "smoothed", [](const D& d) { return d.smoothed(); },
+          "The same motion on the smoothing spline: the noise is found in the data (generalised "
+          "cross-validation) and taken out; see assess().")
+      .def(
+          "denoised",
+          [](const D& d) {
+            const py::gil_scoped_release release;
+            return d.denoised();
+          },
+          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
+          "is; "
+          "see noise_estimate() and NoiseEstimate.")
+      .def(
+          "with_measured",
+          [](const D& d, const Array& measured) { return d.with_measured(to_vector(measured, "measured")); },
+          py::arg("measured"),
+          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
+          "show the way, but no noise.");
+}
+
+template <class D>
+void def_noise_estimate(py::class_<D>& demonstration) {
+  demonstration.def(
+      "noise_estimate",
+      [](const D& d) {
+        NoiseEstimate found;
+        const py::gil_scoped_release release;
+        d.denoised(&found);
+        return found;
+      },
+      "Whether the samples carry noise that can be taken out, with the evidence.");
+}
+
+void bind_vector_demonstration(py::module_& m) {
+  using D = Demonstration;
+  py::class_<D> demonstration(m, "Demonstration",
+                              "Positions over time as they were recorded, in any number of dimensions.");
+  demonstration
+      .def(py::init([](const Array& times, const Array& positions) {
+             return D(to_vector(times, "times"), to_matrix(positions, "positions"));
            }),
-           py::arg("times"), py::arg("poses"), py::arg("gripper"),
-           "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m; gripper "
-           "(T,) "
-           "or (T, k): its opening, or the joints of a hand. Raises InvalidArgument naming the sample.")
+           py::arg("times"), py::arg("positions"),
+           "times (T,) s, strictly increasing; positions (T, d) or (T,), T >= 2. Raises InvalidArgument "
+           "naming the sample.")
       .def_property_readonly(
-          "time", [](const D& d) { return shown(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly(
-          "pose", [](const D& d) { return d.first(); }, "a PoseDemonstration")
-      .def_property_readonly(
-          "gripper", [](const D& d) { return d.second(); }, "a Demonstration")
-      .def_property_readonly("duration", &D::duration, "s")
-      .def("__repr__", [](const D& d) { return shown_samples("PoseGripperDemonstration", d.time()); })
-      .def("__len__", &D::size);
+          "position", [](const D& d) { return shown(d.position()); }, "(T, d)")
+      .def_property_readonly("dimension", &D::dimension)
+      .def(
+          "at", [](const D& d, const Array& times) { return d.at(to_vector(times, "times")); },
+          py::arg("times"),
+          "Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.");
+  def_samples(demonstration, "Demonstration");
+  def_cleaning(demonstration);
+  def_noise_estimate(demonstration);
 }
 
 void bind_orientation_demonstration(py::module_& m) {
   using O = OrientationDemonstration;
-  py::class_<O>(m, "OrientationDemonstration", "Orientations over time as they were recorded.")
+  py::class_<O> demonstration(m, "OrientationDemonstration", "Orientations over time as they were recorded.");
+  demonstration
       .def(py::init([](const Array& times, const Array& rotations) {
              return O(to_vector(times, "times"), to_rotations(rotations, "rotations"));
            }),
            py::arg("times"), py::arg("rotations"),
            "times (T,) s, strictly increasing; rotations (T, 3, 3) body -> world. Raises InvalidArgument, "
-           "naming the "
-           "sample, for a reflection, a matrix not orthogonal to 1e-3, or neighbours more than pi/2 apart.")
+           "naming the sample, for a reflection, a matrix not orthogonal to 1e-3, or neighbours more than "
+           "pi/2 "
+           "apart.")
       .def_static(
           "from_euler",
           [](const Array& times, const Array& angles, const std::string& convention) {
@@ -85,49 +126,67 @@ void bind_orientation_demonstration(py::module_& m) {
           "times (T,) s; quaternions (T, 4) body -> world, of length 1 to 1e-2, in the order \"wxyz\" or "
           "\"xyzw\"; q and -q are one rotation.")
       .def_property_readonly(
-          "time", [](const O& d) { return shown(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly(
           "rotation", [](const O& d) { return shown(d.rotation()); }, "(T, 3, 3)")
-      .def_property_readonly("duration", &O::duration, "s")
       .def(
           "at", [](const O& d, const Array& times) { return d.at(to_vector(times, "times")); },
           py::arg("times"),
           "Rotation, angular velocity and acceleration on the quintic spline at times (n,) in s from the "
-          "start.")
-      .def(
-          "smoothed", [](const O& d) { return d.smoothed(); },
-          "The same motion on the smoothing spline: the noise is found in the data (generalised "
-          "cross-validation) and "
-          "taken out; see assess().")
-      .def(
-          "denoised",
-          [](const OrientationDemonstration& d) {
-            const py::gil_scoped_release release;
-            return d.denoised();
+          "start.");
+  def_samples(demonstration, "OrientationDemonstration");
+  def_cleaning(demonstration);
+  def_noise_estimate(demonstration);
+}
+
+void bind_pose_demonstration(py::module_& m) {
+  using P = PoseDemonstration;
+  py::class_<P> demonstration(m, "PoseDemonstration", "Poses over time as they were recorded.");
+  demonstration
+      .def(py::init([](const Array& times, const Array& poses) {
+             return P(to_vector(times, "times"), to_poses(poses, "poses"));
+           }),
+           py::arg("times"), py::arg("poses"),
+           "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises "
+           "InvalidArgument naming the sample.")
+      .def_static(
+          "from_quaternions",
+          [](const Array& times, const Array& positions, const Array& quaternions, const std::string& order) {
+            return P::from_quaternions(to_vector(times, "times"), to_matrix(positions, "positions", 3),
+                                       to_matrix(quaternions, "quaternions", 4), order);
           },
-          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
-          "is; see "
-          "noise_estimate() and NoiseEstimate.")
+          py::arg("times"), py::arg("positions"), py::arg("quaternions"), py::arg("order"),
+          "times (T,) s; positions (T, 3) m; quaternions (T, 4) body -> world in the order \"wxyz\" or "
+          "\"xyzw\".")
+      .def_property_readonly(
+          "pose", [](const P& d) { return shown(d.pose()); }, "(T, 4, 4)")
+      .def_property_readonly("position", &P::position)
+      .def_property_readonly("orientation", &P::orientation)
       .def(
-          "noise_estimate",
-          [](const OrientationDemonstration& d) {
-            NoiseEstimate found;
+          "noise",
+          [](const P& d) {
+            Smoothing position, orientation;
+            {
+              const py::gil_scoped_release release;
+              d.smoothed(&position, &orientation);
+            }
+            Eigen::VectorXd noise(6);
+            noise << position.noise, Eigen::Vector3d::Constant(orientation.noise[0]);
+            return from_vector(noise);
+          },
+          "(6,) standard deviation of the noise found in the data by generalised cross-validation: of "
+          "positions [m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than "
+          "ten samples")
+      .def(
+          "noise_estimates",
+          [](const P& d) {
+            std::pair<NoiseEstimate, NoiseEstimate> found;
             const py::gil_scoped_release release;
-            d.denoised(&found);
+            d.denoised(&found.first, &found.second);
             return found;
           },
-          "Whether the samples carry noise that can be taken out, with the evidence.")
-      .def(
-          "with_measured",
-          [](const OrientationDemonstration& d, const Array& measured) {
-            return d.with_measured(to_vector(measured, "measured"));
-          },
-          py::arg("measured"),
-          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
-          "show the "
-          "way, but no noise.")
-      .def("__repr__", [](const O& d) { return shown_samples("OrientationDemonstration", d.time()); })
-      .def("__len__", &O::size);
+          "Whether positions [m] and orientations [rad] carry noise that can be taken out, with the "
+          "evidence.");
+  def_samples(demonstration, "PoseDemonstration");
+  def_cleaning(demonstration);
 }
 
 void bind_noise(py::module_& m) {
@@ -174,136 +233,9 @@ void bind_noise(py::module_& m) {
 void bind_demonstration(py::module_& m) {
   bind_trajectories(m);
   bind_noise(m);
-  py::class_<Demonstration>(m, "Demonstration",
-                            "Positions over time as they were recorded, in any number of dimensions.")
-      .def(py::init([](const Array& times, const Array& positions) {
-             return Demonstration(to_vector(times, "times"), to_matrix(positions, "positions"));
-           }),
-           py::arg("times"), py::arg("positions"),
-           "times (T,) s, strictly increasing; positions (T, d) or (T,), T >= 2. Raises InvalidArgument "
-           "naming the sample.")
-      .def_property_readonly(
-          "time", [](const Demonstration& d) { return shown(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly(
-          "position", [](const Demonstration& d) { return shown(d.position()); }, "(T, d)")
-      .def_property_readonly("dimension", &Demonstration::dimension)
-      .def_property_readonly("duration", &Demonstration::duration, "s")
-      .def(
-          "at", [](const Demonstration& d, const Array& times) { return d.at(to_vector(times, "times")); },
-          py::arg("times"),
-          "Position, velocity and acceleration on the quintic spline at times (n,) in s from the start.")
-      .def(
-          "smoothed", [](const Demonstration& d) { return d.smoothed(); },
-          "The same motion on the smoothing spline: the noise is found in the data (generalised "
-          "cross-validation) and taken "
-          "out; see assess().")
-      .def(
-          "denoised",
-          [](const Demonstration& d) {
-            const py::gil_scoped_release release;
-            return d.denoised();
-          },
-          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
-          "is; see "
-          "noise_estimate() and NoiseEstimate.")
-      .def(
-          "noise_estimate",
-          [](const Demonstration& d) {
-            NoiseEstimate found;
-            const py::gil_scoped_release release;
-            d.denoised(&found);
-            return found;
-          },
-          "Whether the samples carry noise that can be taken out, with the evidence.")
-      .def(
-          "with_measured",
-          [](const Demonstration& d, const Array& measured) {
-            return d.with_measured(to_vector(measured, "measured"));
-          },
-          py::arg("measured"),
-          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
-          "show the "
-          "way, but no noise.")
-      .def("__repr__", [](const Demonstration& d) { return shown_samples("Demonstration", d.time()); })
-      .def("__len__", &Demonstration::size);
+  bind_vector_demonstration(m);
   bind_orientation_demonstration(m);
-  py::class_<PoseDemonstration>(m, "PoseDemonstration", "Poses over time as they were recorded.")
-      .def(py::init([](const Array& times, const Array& poses) {
-             return PoseDemonstration(to_vector(times, "times"), to_poses(poses, "poses"));
-           }),
-           py::arg("times"), py::arg("poses"),
-           "times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m. Raises "
-           "InvalidArgument "
-           "naming the sample.")
-      .def_static(
-          "from_quaternions",
-          [](const Array& times, const Array& positions, const Array& quaternions, const std::string& order) {
-            return PoseDemonstration::from_quaternions(to_vector(times, "times"),
-                                                       to_matrix(positions, "positions", 3),
-                                                       to_matrix(quaternions, "quaternions", 4), order);
-          },
-          py::arg("times"), py::arg("positions"), py::arg("quaternions"), py::arg("order"),
-          "times (T,) s; positions (T, 3) m; quaternions (T, 4) body -> world in the order \"wxyz\" or "
-          "\"xyzw\".")
-      .def_property_readonly(
-          "time", [](const PoseDemonstration& d) { return shown(d.time()); }, "(T,) s, from 0")
-      .def_property_readonly(
-          "pose", [](const PoseDemonstration& d) { return shown(d.pose()); }, "(T, 4, 4)")
-      .def_property_readonly("position", &PoseDemonstration::position)
-      .def_property_readonly("orientation", &PoseDemonstration::orientation)
-      .def_property_readonly("duration", &PoseDemonstration::duration, "s")
-      .def(
-          "smoothed", [](const PoseDemonstration& d) { return d.smoothed(); },
-          "The same motion on the smoothing spline: the noise is found in the data (generalised "
-          "cross-validation) and taken "
-          "out; see assess().")
-      .def(
-          "noise",
-          [](const PoseDemonstration& d) {
-            Smoothing position, orientation;
-            {
-              const py::gil_scoped_release release;
-              d.smoothed(&position, &orientation);
-            }
-            Eigen::VectorXd noise(6);
-            noise << position.noise, Eigen::Vector3d::Constant(orientation.noise[0]);
-            return from_vector(noise);
-          },
-          "(6,) standard deviation of the noise found in the data by generalised cross-validation: of "
-          "positions "
-          "[m, x y z], of orientations [rad, the same about x y z]; 0 where there are fewer than ten samples")
-      .def(
-          "denoised",
-          [](const PoseDemonstration& d) {
-            const py::gil_scoped_release release;
-            return d.denoised();
-          },
-          "The same motion without its noise, where the samples show that they carry any, otherwise as it "
-          "is; see "
-          "noise_estimate() and NoiseEstimate.")
-      .def(
-          "noise_estimates",
-          [](const PoseDemonstration& d) {
-            std::pair<NoiseEstimate, NoiseEstimate> found;
-            const py::gil_scoped_release release;
-            d.denoised(&found.first, &found.second);
-            return found;
-          },
-          "Whether positions [m] and orientations [rad] carry noise that can be taken out, with the "
-          "evidence.")
-      .def(
-          "with_measured",
-          [](const PoseDemonstration& d, const Array& measured) {
-            return d.with_measured(to_vector(measured, "measured"));
-          },
-          py::arg("measured"),
-          "The same motion, of whose samples some were filled in: measured (T,), 0 or False for those. They "
-          "show the "
-          "way, but no noise.")
-      .def("__repr__",
-           [](const PoseDemonstration& d) { return shown_samples("PoseDemonstration", d.time()); })
-      .def("__len__", &PoseDemonstration::size);
-  bind_pose_gripper_demonstration(m);
+  bind_pose_demonstration(m);
 }
 
 }  // namespace dmp::python

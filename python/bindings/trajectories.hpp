@@ -1,8 +1,9 @@
 #pragma once
-// Trajectories, one and many, as sets of arrays; many are written by threads that hold no lock on the
+// Motions over time, one and many, as sets of arrays; many are written by threads that hold no lock on the
 // interpreter.
 
 #include <pybind11/pybind11.h>
+#include <dmp/product.hpp>
 
 #include <algorithm>
 #include <string>
@@ -69,6 +70,16 @@ py::class_<typename Space::Trajectory> bind_trajectory(py::module_& m) {
              return shown_samples(InPython<Space>::naming.trajectory, t.time, what);
            })
       .def(py::pickle(&state_of<Space>, &with_state<Space>));
+}
+
+/// What demonstrations of every kind have: their samples' times.
+template <class D>
+void def_samples(py::class_<D>& demonstration, const char* name) {
+  demonstration.def_property_readonly(
+                   "time", [](const D& d) { return shown(d.time()); }, "(T,) s, from 0")
+      .def_property_readonly("duration", &D::duration, "s")
+      .def("__repr__", [name](const D& d) { return shown_samples(name, d.time()); })
+      .def("__len__", &D::size);
 }
 
 /// An array (M, T, ...) whose m-th part is filled from one rollout.

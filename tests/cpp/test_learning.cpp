@@ -3,6 +3,7 @@
 #include <dmp/error.hpp>
 #include <dmp/pose_dmp.hpp>
 
+#include <cmath>
 #include <string>
 
 #include "motions.hpp"
@@ -53,6 +54,25 @@ TEST_CASE("targets are what the forcing term of a fit becomes") {
   CHECK((model.forcing().basis().features(targets[0].s) * model.parameters().weights - learned)
             .cwiseAbs()
             .maxCoeff() < 1e-10);
+}
+
+TEST_CASE(
+    "targets are those that a fit takes where kernels, noise and form are found in the demonstrations") {
+  const PoseDemonstration clean = pose(300, 2.0, 1.3);
+  Poses noisy = clean.pose();
+  for (std::size_t k = 0; k < noisy.size(); ++k) {
+    const double u = static_cast<double>(k);
+    noisy[k].topRightCorner<3, 1>() +=
+        1e-3 * Eigen::Vector3d(std::sin(7e3 * u), std::sin(8e3 * u), std::sin(9e3 * u));
+    noisy[k].topLeftCorner<3, 3>() *= so3::exp({0, 0, 4.0 * minimum_jerk(u / 299.0)});
+  }
+  const std::vector<PoseDemonstration> demonstrations{{clean.time(), noisy}};
+  const PoseDmp model = PoseDmp::fit(demonstrations);
+  CHECK(model.options().derivatives == Derivatives::smooth);
+  CHECK(model.options().orientation_form == OrientationForm::turning);
+  const RowMatrix weights =
+      fit_forcing(model.forcing().basis(), PoseDmp::targets(demonstrations), model.options());
+  CHECK(weights == model.parameters().weights);
 }
 
 TEST_CASE("targets of demonstrations with other ends carry the scale that a joint fit divides by") {

@@ -100,15 +100,17 @@ void inspect_demonstrations(FitReport& report,
   report.noise = Eigen::VectorXd::Zero(report.rmse.size());
   report.removed = report.noise;
   for (const auto& demonstration : demonstrations) {
-    report.evidence.emplace_back();
+    std::vector<Extent> extents;
+    Geometry<Space>::add_extents(demonstration, extents);
+    std::vector<NoiseEstimate>& evidence = report.evidence.emplace_back();
+    Geometry<Space>::denoised(demonstration, evidence);
     Eigen::Index first = 0;
-    for (const auto& [noise, columns] : Geometry<Space>::noise_of(demonstration)) {
-      report.noise.segment(first, columns).array() += share * noise.sigma;
+    for (std::size_t i = 0; i < evidence.size(); first += extents[i++].axes) {
+      const Eigen::Index axes = extents[i].axes;
+      report.noise.segment(first, axes).array() += share * evidence[i].sigma;
       if (options.derivatives == Derivatives::smooth)
-        report.removed.segment(first, columns).array() +=
-            share * noise.removed / std::sqrt(static_cast<double>(columns));
-      report.evidence.back().push_back(noise);
-      first += columns;
+        report.removed.segment(first, axes).array() +=
+            share * evidence[i].removed / std::sqrt(static_cast<double>(axes));
     }
     report.largest_log = std::max(report.largest_log, Geometry<Space>::largest_log(demonstration, options));
   }

@@ -20,6 +20,14 @@ void PoseGeometry::set_ends(PoseDmpParameters& p, const Ends<PoseSpace>& ends) {
   p.reference = ends.reference;
 }
 
+PoseDemonstration PoseGeometry::denoised(const PoseDemonstration& demonstration,
+                                         std::vector<NoiseEstimate>& found) {
+  NoiseEstimate position, orientation;
+  PoseDemonstration result = demonstration.denoised(&position, &orientation);
+  found.insert(found.end(), {position, orientation});
+  return result;
+}
+
 PoseTrajectory PoseGeometry::room_for(const Eigen::VectorXd& times, const Eigen::Matrix4d&) {
   const RowMatrix room(times.size(), 6);
   return {times, Poses(static_cast<std::size_t>(times.size())), room, room};

@@ -12,9 +12,7 @@
 #include "primitive/fitting.hpp"
 #include "primitive/forcing_fit.hpp"
 #include "primitive/parameters.hpp"
-#include "primitive/product_space.hpp"
 #include "primitive/rollout.hpp"
-#include "primitive/runner.hpp"
 
 namespace dmp {
 
@@ -53,10 +51,10 @@ Primitive<Space> fit(const Demonstrations<Space>& demonstrations, const DmpOptio
   if (options.automatic()) {
     require_alike<Space>(demonstrations);
     options.validate();
-    return fit_automatically<Primitive<Space>>(
-        demonstrations, options, [&](const Demonstrations<Space>& prepared, const DmpOptions& stated) {
-          return fit<Space>(prepared, stated, learner);
-        });
+    return fit_automatically<Space>(demonstrations, options,
+                                    [&](const Demonstrations<Space>& prepared, const DmpOptions& stated) {
+                                      return fit<Space>(prepared, stated, learner);
+                                    });
   }
   LearningTask<Space> task = task_of<Space>(demonstrations, options);
   const DmpOptions& decided = task.parameters.options;
@@ -65,31 +63,6 @@ Primitive<Space> fit(const Demonstrations<Space>& demonstrations, const DmpOptio
           ? learned(learner, decided, task.targets)
           : ForcingFit(basis_of(decided), decided, task.targets.front().value.cols()).weights(task.targets);
   return Primitive<Space>(task.parameters);
-}
-
-template <class Space>
-Runner<Space> runner_of(const Primitive<Space>& model) {
-  return Runner<Space>(model.options(), model.forcing(), model.duration(),
-                       Geometry<Space>::ends_of(model.parameters()));
-}
-
-template <class Space>
-typename Space::Trajectory roll_out(const Primitive<Space>& model, const Timetable& timetable,
-                                    const std::optional<typename Space::Point>& goal,
-                                    std::optional<double> duration) {
-  using G = Geometry<Space>;
-  Runner<Space> runner = runner_of(model);
-  if (duration) {
-    require_duration(*duration);
-    runner.set_duration(*duration);
-  }
-  if (goal) {
-    G::require(*goal, model.start(), "goal");
-    runner.start_with_goal(*goal);
-  }
-  typename Space::Trajectory result = G::room_for(timetable.times, model.start());
-  step_through(runner, timetable, [&](Eigen::Index k) { G::record(result, k, runner.system().output()); });
-  return result;
 }
 
 }  // namespace detail
@@ -119,8 +92,14 @@ std::vector<ForcingTarget> Primitive<Space>::targets(const std::vector<Demonstra
                                                      const DmpOptions& options) {
   const auto pointers = detail::pointers_to(demonstrations);
   if (!options.automatic()) return detail::task_of<Space>(pointers, options).targets;
-  const DmpOptions stated = detail::fit<Space>(pointers, options, {}).options();
-  return detail::task_of<Space>(pointers, stated).targets;
+  DmpOptions stated = detail::fit<Space>(pointers, options, {}).options();
+  if (options.derivatives != Derivatives::automatic) return detail::task_of<Space>(pointers, stated).targets;
+  stated.derivatives = Derivatives::interpolate;  // of what is left without the noise, as fit does
+  std::vector<Demonstration> cleaned;
+  std::vector<NoiseEstimate> noise;
+  for (const Demonstration& one : demonstrations)
+    cleaned.push_back(detail::Geometry<Space>::denoised(one, noise));
+  return detail::task_of<Space>(detail::pointers_to(cleaned), stated).targets;
 }
 
 template <class Space>

@@ -85,11 +85,14 @@ struct ProductGeometry {
     Second::deviation(output.second, P::second(demonstration), k,
                       away + dimension_of<typename P::First>(P::first(demonstration)));
   }
-  static Noises noise_of(const Demonstration& demonstration) {
-    Noises both = First::noise_of(P::first(demonstration));
-    const Noises second = Second::noise_of(P::second(demonstration));
-    both.insert(both.end(), second.begin(), second.end());
-    return both;
+  static Demonstration denoised(const Demonstration& demonstration, std::vector<NoiseEstimate>& found) {
+    auto first = First::denoised(P::first(demonstration), found);
+    auto second = Second::denoised(P::second(demonstration), found);
+    return {std::move(first), std::move(second)};
+  }
+  static void add_extents(const Demonstration& demonstration, std::vector<Extent>& extents) {
+    First::add_extents(P::first(demonstration), extents);
+    Second::add_extents(P::second(demonstration), extents);
   }
   static double largest_log(const Demonstration& demonstration, const DmpOptions& options) {
     return std::max(First::largest_log(P::first(demonstration), options),
@@ -130,6 +133,10 @@ struct Geometry<PoseSpace> : ProductGeometry<PoseSpace> {
 
   static Ends<PoseSpace> ends_of(const PoseDmpParameters& parameters);
   static void set_ends(PoseDmpParameters& parameters, const Ends<PoseSpace>& ends);
+
+  /// Both parts together: they share their samples' times, and which of them were measured.
+  static PoseDemonstration denoised(const PoseDemonstration& demonstration,
+                                    std::vector<NoiseEstimate>& found);
 
   static PoseTrajectory room_for(const Eigen::VectorXd& times, const Point&);
   static void record(PoseTrajectory& trajectory, Eigen::Index k, const PoseSpace::Output& output);

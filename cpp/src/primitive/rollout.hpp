@@ -1,13 +1,17 @@
 #pragma once
 
 #include <dmp/error.hpp>
+#include <dmp/primitive.hpp>
 #include <dmp/status.hpp>
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "base/text.hpp"
+#include "primitive/product_space.hpp"
+#include "primitive/runner.hpp"
 
 namespace dmp::detail {
 
@@ -54,6 +58,39 @@ void step_through(Runner& runner, const Timetable& timetable, Record record) {
     now = times[k];
     record(k);
   }
+}
+
+template <class Space>
+Runner<Space> runner_of(const Primitive<Space>& model) {
+  return Runner<Space>(model.options(), model.forcing(), model.duration(),
+                       Geometry<Space>::ends_of(model.parameters()));
+}
+
+/// Rolls a model out and calls take(k, output) at each time.
+template <class Space, class Take>
+void follow(const Primitive<Space>& model, const Timetable& timetable,
+            const std::optional<typename Space::Point>& goal, std::optional<double> duration, Take take) {
+  Runner<Space> runner = runner_of(model);
+  if (duration) {
+    require_duration(*duration);
+    runner.set_duration(*duration);
+  }
+  if (goal) {
+    Geometry<Space>::require(*goal, model.start(), "goal");
+    runner.start_with_goal(*goal);
+  }
+  step_through(runner, timetable, [&](Eigen::Index k) { take(k, runner.system().output()); });
+}
+
+template <class Space>
+typename Space::Trajectory roll_out(const Primitive<Space>& model, const Timetable& timetable,
+                                    const std::optional<typename Space::Point>& goal,
+                                    std::optional<double> duration) {
+  using G = Geometry<Space>;
+  typename Space::Trajectory result = G::room_for(timetable.times, model.start());
+  follow(model, timetable, goal, duration,
+         [&](Eigen::Index k, const typename Space::Output& output) { G::record(result, k, output); });
+  return result;
 }
 
 }  // namespace dmp::detail

@@ -157,10 +157,17 @@ void RotationGeometry::deviation(RotationSpace::Output output, const Orientation
       minus(output.quaternion.toRotationMatrix(), demonstration.rotation()[static_cast<std::size_t>(k)]);
 }
 
-Noises RotationGeometry::noise_of(const OrientationDemonstration& demonstration) {
-  NoiseEstimate found;
-  demonstration.denoised(&found);
-  return {{found, 3}};
+OrientationDemonstration RotationGeometry::denoised(const OrientationDemonstration& demonstration,
+                                                    std::vector<NoiseEstimate>& found) {
+  return demonstration.denoised(&found.emplace_back());
+}
+
+void RotationGeometry::add_extents(const OrientationDemonstration& demonstration,
+                                   std::vector<Extent>& extents) {
+  double extent = 0.3;  // rad; what turns less is no motion of the orientation
+  for (const Matrix3d& rotation : demonstration.rotation())
+    extent = std::max(extent, so3::distance(rotation, demonstration.rotation().front()));
+  extents.push_back({3, extent, 1e-9});
 }
 
 double RotationGeometry::largest_log(const OrientationDemonstration& demonstration,

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "primitive/parts.hpp"
@@ -28,7 +27,12 @@ struct Decision {
   RowMatrix reference;  ///< of the rotation that turns along with the demonstrations; else empty
 };
 
-using Noises = std::vector<std::pair<NoiseEstimate, Eigen::Index>>;
+/// How far a part of a demonstration (positions or orientations) reaches, in its unit.
+struct Extent {
+  Eigen::Index axes;
+  double size;
+  double rounding;  ///< what is below this is none of its motion
+};
 
 template <class Space>
 using Demonstrations = std::vector<const typename Space::Demonstration*>;
@@ -77,8 +81,9 @@ struct Geometry<VectorSpace> {
   /// (d) how far an output is from sample k of a demonstration.
   static void deviation(VectorSpace::Output output, const Demonstration& demonstration, Eigen::Index k,
                         double* away);
-  /// The noise of each part, and for how many columns it stands.
-  static Noises noise_of(const Demonstration& demonstration);
+  /// The same without its noise; appends what each part shows of noise.
+  static Demonstration denoised(const Demonstration& demonstration, std::vector<NoiseEstimate>& found);
+  static void add_extents(const Demonstration& demonstration, std::vector<Extent>& extents);
   static double largest_log(const Demonstration&, const DmpOptions&) { return 0.0; }
   /// How far the rmse goes beyond the tolerance: 1 is just within.
   static double excess(const Point&, const Eigen::VectorXd& rmse, const Tolerance& tolerance) {
@@ -119,7 +124,9 @@ struct Geometry<RotationSpace> {
 
   static void deviation(RotationSpace::Output output, const OrientationDemonstration& demonstration,
                         Eigen::Index k, double* away);
-  static Noises noise_of(const OrientationDemonstration& demonstration);
+  static OrientationDemonstration denoised(const OrientationDemonstration& demonstration,
+                                           std::vector<NoiseEstimate>& found);
+  static void add_extents(const OrientationDemonstration& demonstration, std::vector<Extent>& extents);
   static double largest_log(const OrientationDemonstration& demonstration, const DmpOptions& options);
   static double excess(const Point&, const Eigen::VectorXd& rmse, const Tolerance& tolerance) {
     return rmse.norm() / tolerance.angle;

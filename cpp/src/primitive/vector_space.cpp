@@ -89,10 +89,15 @@ void VectorGeometry::deviation(VectorSpace::Output output, const Demonstration& 
       output.position.transpose() - demonstration.position().row(k);
 }
 
-Noises VectorGeometry::noise_of(const Demonstration& demonstration) {
-  NoiseEstimate found;
-  demonstration.denoised(&found);
-  return {{found, demonstration.dimension()}};
+Demonstration VectorGeometry::denoised(const Demonstration& demonstration,
+                                       std::vector<NoiseEstimate>& found) {
+  return demonstration.denoised(&found.emplace_back());
+}
+
+void VectorGeometry::add_extents(const Demonstration& demonstration, std::vector<Extent>& extents) {
+  const RowMatrix& y = demonstration.position();
+  extents.push_back({y.cols(), (y.colwise().maxCoeff() - y.colwise().minCoeff()).norm(),
+                     std::max(1e-9 * y.cwiseAbs().maxCoeff(), 1e-12)});
 }
 
 std::vector<VectorXd> VectorGeometry::points_at(const Demonstration& demonstration, const VectorXd& times) {
