@@ -93,6 +93,14 @@ def test_imports_point_down():
             assert floors()[below] < floors()[above], f"{'.'.join(module)} imports {'.'.join(imported)}"
 
 
+def test_includes_of_the_cpp_sources_point_down_and_its_changes_touch_the_files_that_are_listed():
+    rooms = subprocess.run(
+        [sys.executable, DRAWING.parents[1] / "scripts" / "rooms.py"], capture_output=True, text=True
+    )
+    assert rooms.returncode == 0, rooms.stdout
+    assert "includes that run up: 0" in rooms.stdout
+
+
 def test_modules_of_one_room_import_one_another_in_no_circle():
     graph = {}
     for module, imported, _ in imports():

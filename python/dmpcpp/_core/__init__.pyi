@@ -85,53 +85,6 @@ class OrientationTrajectory:
         """
         (T,) s
         """
-class PoseGripperTrajectory:
-    """
-    A motion over time: what PoseGripperDmp.rollout returns.
-    """
-    def __getstate__(self) -> tuple:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
-        ...
-    @property
-    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T, 6) the twist's rate, m/s^2 and rad/s^2
-        """
-    @property
-    def gripper(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T, d)
-        """
-    @property
-    def gripper_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T, d) per s^2
-        """
-    @property
-    def gripper_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T, d) per s
-        """
-    @property
-    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T, 4, 4) [R p; 0 1], body -> world
-        """
-    @property
-    def time(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T,) s
-        """
-    @property
-    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
-        """
 class PoseTrajectory:
     """
     A motion over time: what PoseDmp.rollout returns.
@@ -411,38 +364,6 @@ class PoseDemonstration:
     @property
     def position(self) -> Demonstration:
         ...
-    @property
-    def time(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (T,) s, from 0
-        """
-class PoseGripperDemonstration:
-    """
-    The pose of a tool and its gripper as they were recorded.
-    """
-    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gripper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
-        """
-        times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m; gripper (T,) or (T, k): its opening, or the joints of a hand. Raises InvalidArgument naming the sample.
-        """
-    def __len__(self) -> int:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def duration(self) -> float:
-        """
-        s
-        """
-    @property
-    def gripper(self) -> Demonstration:
-        """
-        a Demonstration
-        """
-    @property
-    def pose(self) -> PoseDemonstration:
-        """
-        a PoseDemonstration
-        """
     @property
     def time(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1764,6 +1685,85 @@ class PoseRun:
     def twist(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class PoseGripperTrajectory:
+    """
+    A motion over time: what PoseGripperDmp.rollout returns.
+    """
+    def __getstate__(self) -> tuple:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 6) the twist's rate, m/s^2 and rad/s^2
+        """
+    @property
+    def gripper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d)
+        """
+    @property
+    def gripper_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d) per s^2
+        """
+    @property
+    def gripper_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, d) per s
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 4, 4) [R p; 0 1], body -> world
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s
+        """
+    @property
+    def twist(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T, 6) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class PoseGripperDemonstration:
+    """
+    The pose of a tool and its gripper as they were recorded.
+    """
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], poses: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gripper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        times (T,) s, strictly increasing; poses (T, 4, 4) [R p; 0 1], body -> world, p in m; gripper (T,) or (T, k): its opening, or the joints of a hand. Raises InvalidArgument naming the sample.
+        """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def duration(self) -> float:
+        """
+        s
+        """
+    @property
+    def gripper(self) -> Demonstration:
+        """
+        a Demonstration
+        """
+    @property
+    def pose(self) -> PoseDemonstration:
+        """
+        a PoseDemonstration
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (T,) s, from 0
         """
 class PoseGripperDmpParameters:
     """
