@@ -69,9 +69,9 @@ def test_the_function_of_the_acceleration_limits_is_a_property_now():
         assert np.array_equal(arms.acceleration_limit(arms.find("iiwa")), np.full(7, 10.0))
 
 
-def test_an_unknown_name_is_refused_with_the_names_that_exist():
-    with pytest.raises(InvalidArgument, match=r"'ur5' is not known. Known are panda, iiwa, xarm6.*\.urdf"):
-        arms.load("ur5")
+def test_an_unknown_name_is_refused_with_the_nearest_ones():
+    with pytest.raises(InvalidArgument, match=r"'pandda' is not known. Nearest are panda \(pybullet_data\).*\.urdf"):
+        arms.load("pandda")
 
 
 def test_a_urdf_file_is_loaded_by_its_path():
@@ -82,9 +82,10 @@ def test_a_urdf_file_is_loaded_by_its_path():
     assert math.isclose(arm.velocity_limit[0], 2.175)
 
 
-def test_base_and_tip_are_not_for_a_named_arm():
-    with pytest.raises(InvalidArgument, match=r"'panda' has its own"):
-        arms.load("panda", tip="panda_link8")
+def test_base_and_tip_of_a_named_arm_can_be_stated():
+    arm = arms.load("panda", base="panda_link1", tip="panda_link8")
+    assert (arm.base, arm.tip, arm.joint_count) == ("panda_link1", "panda_link8", 6)
+    assert np.array_equal(arm.acceleration_limit, [7.5, 10, 12.5, 15, 20, 20])
 
 
 def test_without_pybullet_data_the_error_says_what_to_install(monkeypatch):

@@ -148,3 +148,9 @@ def test_the_command_line_stops_at_once_and_takes_the_option(tmp_path: Path) -> 
     assert planned.returncode == 0, planned.stdout + planned.stderr
     assert "the orientation is not judged" in planned.stdout.replace("\n", " ")
     assert 'follow = "position"' in (tmp_path / "dmpcpp-plan" / "config.toml").read_text()
+
+
+def test_a_grasp_needs_the_hands_direction(tmp_path: Path) -> None:
+    done = run("grasp", "--follow", "position", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "--follow: 'position', expected axis:x, axis:y, axis:z or pose" in done.stderr

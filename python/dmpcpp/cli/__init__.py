@@ -1,9 +1,10 @@
 """The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | view |
-report | batch | check-urdf | doctor | fetch`.
+report | batch | arms | check-urdf | doctor | fetch`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
 
+from dmpcpp.cli._arms import arms
 from dmpcpp.cli._batch import batch
 from dmpcpp.cli._checking import check_urdf, doctor
 from dmpcpp.cli._config import configurable
@@ -33,6 +34,7 @@ _COMMANDS = (
     view,
     report,
     batch,
+    arms,
     check_urdf,
     doctor,
     fetch,

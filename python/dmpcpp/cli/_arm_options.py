@@ -23,7 +23,7 @@ __all__ = [
     "taken_surroundings",
 ]
 
-_FIELDS = ("base", "tip", "tool")
+_FIELDS = ("base", "tip", "tool", "package_path")
 
 _CHOICE = (
     click.option(
@@ -40,6 +40,12 @@ _CHOICE = (
         "--tool",
         metavar="X,Y,Z[,ROLL,PITCH,YAW]",
         help="Frame that follows the hand instead of the tip, in the tip's frame [m, rad], as a URDF's <origin>.",
+    ),
+    click.option(
+        "--package-path",
+        multiple=True,
+        metavar="DIR|NAME=DIR",
+        help="Where packages of package:// paths are; repeatable. ROS_PACKAGE_PATH and AMENT_PREFIX_PATH count, too.",
     ),
 )
 
@@ -114,6 +120,7 @@ def taken_choice(options: dict[str, Any]) -> dict[str, Any]:
         from dmpcpp.cli._numbers import numbers
 
         given["tool"] = list(numbers("--tool", given["tool"], 3, 6))
+    given["package_path"] = list(given["package_path"])
     return given
 
 

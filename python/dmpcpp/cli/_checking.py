@@ -16,8 +16,11 @@ from dmpcpp.cli._tables import arm_line
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--base", metavar="LINK", help="Base link of the arm (default: the URDF's root).")
 @click.option("--tip", metavar="LINK", help="Link that follows the hand (default: the longest chain's tool).")
+@click.option(
+    "--package-path", multiple=True, metavar="DIR|NAME=DIR", help="Where packages of package:// paths are; repeatable."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON instead of the table.")
-def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> None:
+def check_urdf(file: Path, base: str | None, tip: str | None, package_path: tuple[str, ...], as_json: bool) -> None:
     """List every defect of FILE, a URDF, that affects loading, planning or physics.
 
     Exit status: 0 none, 2 the file cannot be read, 3 there are some.
@@ -26,7 +29,7 @@ def check_urdf(file: Path, base: str | None, tip: str | None, as_json: bool) -> 
     """
     from dmpcpp.robot import urdf_check
 
-    report = urdf_check.check(file, base or "", tip or "")
+    report = urdf_check.check(file, base or "", tip or "", package_path)
     if as_json:
         click.echo(json.dumps(report.summary(), indent=2))
     else:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._arm_options import follow_option
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._tables import mark, note_style, number
 from dmpcpp.cli._verdict import print_verdict
@@ -72,6 +73,7 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
 @click.command()
 @_bottle_options
 @_recording_options
+@follow_option
 @click.option("--video", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE", help="A .mp4, .gif or .png.")
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON instead of the table.")
 def grasp(
@@ -82,6 +84,7 @@ def grasp(
     mass: float | None,
     friction: float | None,
     seed: int | None,
+    follow: str | None,
     video: Path | None,
     as_json: bool,
     **recording: Any,
@@ -99,7 +102,7 @@ def grasp(
     if video:
         refuse_format(video)
     bottle = _bottle({"x": x, "y": y, "yaw": yaw, "height": height}, mass, friction, seed)
-    planner = task.Planner(_reach(**recording), arms.find("panda"))
+    planner = task.Planner(_reach(**recording), arms.find("panda"), follow=follow)
     with _progress(as_json) as progress:
         run = task.grasp(planner, bottle, progress("executing under physics"))
         if video:

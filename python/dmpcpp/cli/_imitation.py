@@ -237,7 +237,8 @@ def _print(run: Imitation, out: Path) -> None:
     console.print(run.evidence.sentence, soft_wrap=True, markup=False)
     console.print(f"arm: {arm_line(run.log.arm)}", soft_wrap=True, markup=False)
     if run.contacts:
-        console.print(f"contacts: {run.contacts.describe()}", style="dim", soft_wrap=True, markup=False)
+        style = "yellow" if run.contacts.unjudged else "dim"
+        console.print(f"contacts: {run.contacts.describe()}", style=style, soft_wrap=True, markup=False)
     for line in run.log.arm.warnings:
         console.print(f"arm: {line}", style="yellow", soft_wrap=True, markup=False)
     console.print(

@@ -120,9 +120,9 @@ def fit(
 
 
 def _require_no_arm(options: dict[str, Any]) -> None:
-    for name in ("base", "tip", "tool", "scale", "follow", "floor", "ignored"):
+    for name in ("base", "tip", "tool", "scale", "follow", "floor", "ignored", "package_path"):
         if options[name]:
-            option = "--ignore-contact" if name == "ignored" else f"--{name}"
+            option = "--ignore-contact" if name == "ignored" else "--" + name.replace("_", "-")
             raise InvalidArgument(f"{option}: without --arm it says nothing. State --arm too.")
 
 

@@ -19,6 +19,7 @@ from dmpcpp.grasp._task import Bottle, hand_pose
 from dmpcpp.grasp._timing import timed_grasp
 from dmpcpp.learning import learn
 from dmpcpp.recordings import Recording
+from dmpcpp.robot import Follow, following
 from dmpcpp.simulation import PANDA_HAND, GraspWorld, ParallelGripper
 
 __all__ = ["GraspPlan", "Planner"]
@@ -95,15 +96,29 @@ class Planner:
     arm : Arm
     gripper : ParallelGripper
         At the arm's tip.
+    follow : str, optional
+        "pose", or "axis:x", "axis:y", "axis:z": what of the hand's poses counts.
 
     For several threads make several.
     """
 
-    def __init__(self, recording: Recording, arm: Arm, gripper: ParallelGripper = PANDA_HAND) -> None:
+    def __init__(
+        self,
+        recording: Recording,
+        arm: Arm,
+        gripper: ParallelGripper = PANDA_HAND,
+        *,
+        follow: str | Follow | None = None,
+    ) -> None:
         """Bring the reach to rest at both ends."""
         self.recording = resting(motion.continuous(recording))
         self.arm, self.gripper = arm, gripper
-        self._solver = InverseKinematics(arm)
+        followed = following(arm, follow)
+        if followed.kind == "position":
+            raise InvalidArgument(
+                "follow: 'position', expected axis:x, axis:y, axis:z or pose: a hand grasps by its pose."
+            )
+        self._solver = InverseKinematics(arm, weight=followed.weight)
         self._learned: dict[tuple[object, ...], tuple[PoseDmp, tuple[str, ...]]] = {}
 
     def plan(self, bottle: Bottle) -> GraspPlan:

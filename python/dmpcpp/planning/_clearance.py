@@ -68,19 +68,29 @@ class ClearOfItself:
 
 @dataclass(frozen=True)
 class LookedAt:
-    """What is looked at for contacts: all pairs but those that the rules leave out, and a floor [m] unless None."""
+    """What is looked at for contacts: all pairs but those that the rules leave out, and a floor [m] unless None.
+
+    `unjudged` are links that the arm does not move and whose shapes cannot be read.
+    """
 
     rules: ContactRules
     floor: float | None
+    unjudged: tuple[str, ...] = ()
 
     def describe(self) -> str:
         """Return one line for reports."""
         floor = "no floor" if self.floor is None else f"floor at z = {round(self.floor, 3) + 0.0:g} m"
-        return f"{self.rules.describe()}; {floor}"
+        unread = f"; not judged: contacts of {', '.join(self.unjudged)}, no mesh" if self.unjudged else ""
+        return f"{self.rules.describe()}; {floor}{unread}"
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return {"floor": self.floor, "ignored": [list(pair) for pair in self.rules.stated], "left_out": self.describe()}
+        return {
+            "floor": self.floor,
+            "not_judged": list(self.unjudged),
+            "ignored": [list(pair) for pair in self.rules.stated],
+            "left_out": self.describe(),
+        }
 
 
 def clear_of_itself(arm: Arm, engine: Callable[..., Simulator]) -> ClearOfItself:
@@ -103,7 +113,7 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
     with engine(arm, 1e-3) as world:
         for q in _random_joints(arm, np.random.default_rng(seed), _POSTURES):
             found.update({(contact.link, contact.other) for contact in world.contacts_at(q)})
-        looked_at = LookedAt(world.contact_rules, world.floor)
+        looked_at = LookedAt(world.contact_rules, world.floor, world.unjudged_links)
     always = [(pair, n) for pair, n in found.most_common() if n >= _NEARLY_ALL * _POSTURES]
     if not always:
         return looked_at

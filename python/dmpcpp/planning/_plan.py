@@ -144,14 +144,14 @@ def plan(
     if end.shape == (4, 4):  # any other is refused by the rollout
         require_within_reach(end[:3, 3], arm, "goal: the end of the motion")
     looked_at = require_free_postures(arm, simulator) if simulator is not None else None
-    accept = clear_of_itself(arm, simulator) if simulator is not None else None
+    clear = clear_of_itself(arm, simulator) if simulator is not None else None
     solution = solve(
         model,
         arm,
         goal=goal,
         duration=wanted,
         stand=_stand(start, arm),
-        accept=accept,
+        accept=clear,
         slow_down=slow_down,
         follow=followed,
     )

@@ -4,7 +4,7 @@ Users import ``dmpcpp.arms`` and ``dmpcpp.urdf_check``; the rest is for the room
 """
 
 from dmpcpp.robot._contact_rules import FLOOR, ContactRules, Surroundings, contact_rules, floor_height
-from dmpcpp.robot._description import RobotDescription, describe, find_mesh, links_of
+from dmpcpp.robot._description import RobotDescription, describe, links_of
 from dmpcpp.robot._dimensions import dimension_checks, dimension_doubts
 from dmpcpp.robot._disturbance import Disturbance
 from dmpcpp.robot._follow import POSE, Follow, following
@@ -12,6 +12,7 @@ from dmpcpp.robot._gravity import Overload, overloads, random_postures, require_
 from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
 from dmpcpp.robot._limit_sources import assumptions, limits_summary
 from dmpcpp.robot._limit_use import LimitUse, judged_by_limits
+from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why
 from dmpcpp.robot._reach import farthest_reach, require_within_reach
 from dmpcpp.robot._shapes import levers

@@ -21,6 +21,7 @@ from dmpcpp.robot._convex_pieces import convex_pieces
 from dmpcpp.robot._disturbance import Disturbance
 from dmpcpp.robot._engine_urdf import inertia_of, write_inertia, written
 from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
+from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._urdf_changes import add_payload, freeze, normalize_axes, scale_masses
 
 _WITH_MOTORS = ("revolute", "continuous", "prismatic")
@@ -38,6 +39,8 @@ class RobotDescription:
     repairs : tuple of InertiaRepair
         Of the links that the arm moves: those whose inertia was not physical and was replaced by the nearest one that
         is, and bodies that state none.
+    unjudged : tuple of str
+        Links that the arm does not move and whose shapes cannot be read: their contacts are not judged.
     rigid_groups : tuple of frozenset of str
         The links of the robot, grouped: the links of a group never move against one another.
     neighbours : frozenset of frozenset of str
@@ -46,6 +49,7 @@ class RobotDescription:
 
     text: str
     repairs: tuple[InertiaRepair, ...]
+    unjudged: tuple[str, ...]
     rigid_groups: tuple[frozenset[str], ...]
     neighbours: frozenset[frozenset[str]]
 
@@ -90,16 +94,19 @@ def describe(
     _refuse_folded_joints(robot, arm)
     normalize_axes(robot)
     links = robot.findall("link")
-    for link in links:
-        _prepare_shapes(link, arm.folder, folder, visuals)
     moved = links_beyond(robot, arm.joint_names[0])
+    unjudged = tuple(
+        link.get("name", "")
+        for link in links
+        if not _prepared(link, arm.folder, folder, visuals, link.get("name") in moved)
+    )
     found = [repair for link in links if (repair := _repair_inertia(link)) is not None]
     repairs = tuple(repair for repair in found if repair.link in moved)
     _change(robot, arm, disturbance or Disturbance())
     _refuse_massless(robot, arm)
     freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
     groups = _rigid_groups(robot)
-    return RobotDescription(written(robot), repairs, groups, _neighbours(robot, groups))
+    return RobotDescription(written(robot), repairs, unjudged, groups, _neighbours(robot, groups))
 
 
 def links_of(arm: Arm) -> frozenset[str]:
@@ -139,6 +146,19 @@ def _refuse_folded_joints(robot: ET.Element, arm: Arm) -> None:
                 "engines cannot couple them. Choose a base and a tip without it."
             )
         link = _ends(joint)[0]
+
+
+def _prepared(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool, is_moved: bool) -> bool:
+    """Prepare the shapes of a link; whether they could be: one that the arm does not move may lack a mesh."""
+    try:
+        _prepare_shapes(link, urdf_folder, folder, visuals)
+    except InvalidArgument:
+        if is_moved:
+            raise
+        for shape in (*link.findall("collision"), *link.findall("visual")):
+            link.remove(shape)
+        return False
+    return True
 
 
 def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool) -> None:
@@ -220,23 +240,6 @@ def _read_inertia(element: ET.Element | None, link: str) -> Array:
     if not np.isfinite(inertia).all():
         raise InvalidArgument(f"arm.urdf: link '{link}': <inertia> is not finite. Give six numbers.")
     return inertia
-
-
-def find_mesh(filename: str, folder: str, link: str = "") -> Path:
-    """Where a mesh is: by its own path, or below the URDF's folder or one above it (``package://`` paths)."""
-    path = Path(filename.removeprefix("file://").removeprefix("package://"))
-    start = Path(folder or ".").resolve()
-    candidates = [base / path for base in (start, *start.parents)]
-    if filename.startswith("package://"):
-        inside = Path(*path.parts[1:])
-        candidates += [base / inside for base in (start, *start.parents)]
-    for candidate in candidates:
-        if candidate.is_file():
-            return candidate
-    raise InvalidArgument(
-        f"arm.urdf: link '{link}': no mesh '{filename}' in '{start}' or a folder above it. "
-        "Load the arm from the URDF's own folder."
-    )
 
 
 def _rigid_groups(robot: ET.Element) -> tuple[frozenset[str], ...]:

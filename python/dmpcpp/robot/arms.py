@@ -1,11 +1,13 @@
-"""Arms by name: the URDFs that ship with PyBullet, with the real limits where those hold placeholders."""
+"""Arms by name, from the packages that carry their descriptions, and arms from files."""
 
 from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +15,13 @@ from numpy.typing import ArrayLike
 from dmpcpp import _pybullet_data as _data
 from dmpcpp._core import Arm, LimitSource, so3
 from dmpcpp._typing import Array
-from dmpcpp.errors import InvalidArgument, MissingDependency
+from dmpcpp.errors import InvalidArgument, MissingDependency, within
+from dmpcpp.robot import _robot_descriptions
+from dmpcpp.robot._catalogue import CATALOGUE, Listed, Place, key, lookup, nearest
+from dmpcpp.robot._makers import MAKERS as MAKERS
+from dmpcpp.robot._makers import MakerLimits
+from dmpcpp.robot._packages import Packages, with_packages
+from dmpcpp.robot._reader import expanded, read_description
 
 DEFAULT_ACCELERATION = 10.0
 """Joint acceleration limit [rad/s^2] that is assumed where nobody states one."""
@@ -80,48 +88,149 @@ KNOWN: dict[str, KnownArm] = {
 }
 
 
-def find(name: str) -> Arm:
-    """The arm "panda", "iiwa" or "xarm6", with the limits of the real machine (``KNOWN[name].source``).
+def find(name: str, base: str | None = None, tip: str | None = None) -> Arm:
+    """An arm by name ("panda", "ur5e", "SO-101", "robot_descriptions:xarm6"), with the limits that its maker publishes.
+
+    Case, dashes and underscores do not count. Its description comes from a package that is installed, or from the cache
+    of robot_descriptions; nothing is fetched. `listed` says what there is.
 
     Raises
     ------
     InvalidArgument
-        No such name; the message lists those that exist.
+        No such name; the message has the nearest ones and where they come from.
     MissingDependency
-        pybullet_data, which holds the URDFs, is not installed.
+        The package that carries its description is not installed.
     """
-    if name not in KNOWN:
+    known = KNOWN.get(key(name))
+    if known is not None:
+        return _known_arm(known, base, tip)
+    listed = lookup(name)
+    if listed is None:
+        near = ", ".join(f"{one.name} ({one.places[0].package})" for one in nearest(name))
         raise InvalidArgument(
-            f"arm: '{name}' is not known. Known are {', '.join(KNOWN)}; the path of a .urdf file works too."
+            f"arm: '{name}' is not known. Nearest are {near}; `dmpcpp arms` lists all, and the path of a .urdf file "
+            "works too."
         )
-    known = KNOWN[name]
-    arm = Arm.from_urdf_file(str(_pybullet_data() / known.urdf), base=known.base, tip=known.tip)
-    return arm.with_limits(
-        velocity=known.velocity_limit,
-        effort=known.effort_limit,
-        acceleration=known.acceleration_limit,
-        jerk=known.jerk_limit,
-        source=LimitSource.maker,
-    )
+    there = listed.found()
+    if there is None:
+        ways = ", or ".join(dict.fromkeys(place.command for place in listed.places))
+        raise MissingDependency(f"arm: '{name}': its description is not on this machine. Get it: {ways}.")
+    default = _listed_arm(listed, *there, listed.base, listed.tip)
+    arm = _listed_arm(listed, *there, base or listed.base, tip or listed.tip) if base or tip else default
+    return _with_maker_limits(arm, default, listed.maker)
+
+
+def listed() -> tuple[Listed, ...]:
+    """Return the arms that have a name, each with the packages that carry its description."""
+    return CATALOGUE
+
+
+def description_of(name: str) -> str | None:
+    """Return the module of robot_descriptions that describes an arm; None where there is none."""
+    listed = lookup(name)
+    places = listed.places if listed else ()
+    named = next((place.path for place in places if place.package == "robot_descriptions"), None)
+    return named or _robot_descriptions.module_of(key(name))
+
+
+def fetch(module: str) -> Path:
+    """Clone what a module of robot_descriptions needs into its cache, and return the description's path.
+
+    Raises
+    ------
+    MissingDependency
+        robot_descriptions is not installed, or has no such module.
+    """
+    return _robot_descriptions.fetch(module)
 
 
 def load(
-    name_or_path: str | Path, base: str | None = None, tip: str | None = None, *, tool: ArrayLike | None = None
+    name_or_path: str | Path,
+    base: str | None = None,
+    tip: str | None = None,
+    *,
+    tool: ArrayLike | None = None,
+    package_path: Sequence[str] = (),
 ) -> Arm:
-    """An arm by name, or from a URDF file.
+    """An arm by name, or from a URDF or xacro file.
 
     Parameters
     ----------
     name_or_path : str or Path
-        "panda", "iiwa", "xarm6" or the path of a URDF (anything that ends in .urdf or names a file).
+        A name as `find` takes it, or the path of a file.
     base, tip : str, optional
-        Links between which the arm stands, for a URDF file; chosen unless given (`Arm.choice` says how).
+        Links between which the arm stands; chosen unless given (`Arm.choice` says how).
     tool : array_like (3,), (6,) or (4, 4), optional
         The frame that follows the hand, in that of the tip: x, y, z [m], or with roll, pitch and yaw [rad] as a
         URDF's <origin>, or a pose. The tip itself unless given.
+    package_path : sequence of str
+        Where packages of `package://` paths are: NAME=DIR, or DIR that holds them.
+
+    Raises
+    ------
+    InvalidArgument
+        No such name; not a URDF; or one with which no motion can be planned.
+    FileError
+        The file cannot be read.
+    MissingDependency
+        The package that carries the description of a named arm is not installed.
     """
-    arm = _found(name_or_path, base, tip)
+    arm = _found(name_or_path, base, tip, package_path)
     return arm if tool is None else arm.with_tool(_tool_frame(tool))
+
+
+def _known_arm(known: KnownArm, base: str | None, tip: str | None) -> Arm:
+    path = _pybullet_data() / known.urdf
+    default = Arm.from_urdf_file(str(path), base=known.base, tip=known.tip)
+    arm = Arm.from_urdf_file(str(path), base=base or known.base, tip=tip or known.tip) if base or tip else default
+    limits = MakerLimits(
+        known.source, known.velocity_limit, known.acceleration_limit, known.jerk_limit, known.effort_limit
+    )
+    return _with_maker_limits(arm, default, limits)
+
+
+def _listed_arm(listed: Listed, place: Place, path: Path, base: str, tip: str) -> Arm:
+    if place.package != "robot_descriptions":
+        text = read_description(path)
+    else:
+        found = _robot_descriptions.cached(place.path)
+        assert found is not None  # its path was found just now
+        of_xacro = not path.name.endswith(".urdf")
+        text = expanded(path, found.packages, found.arguments) if of_xacro else read_description(path)
+        text = with_packages(text, Packages(found.packages))
+    return _named(f"arm '{listed.name}'", text, base, tip, path.parent)
+
+
+def _named(what: str, text: str, base: str, tip: str, folder: Path) -> Arm:
+    try:
+        return Arm.from_urdf(text, base, tip, str(folder.absolute()))
+    except InvalidArgument as error:
+        raise within(what, error) from None
+
+
+def _with_maker_limits(arm: Arm, default: Arm, limits: MakerLimits | None) -> Arm:
+    """Return the arm with the maker's limits: those of the joints that it has of the default one."""
+    if limits is None:
+        return arm
+    given: dict[str, dict[str, float]] = {}
+    for kind in ("velocity", "acceleration", "jerk", "effort"):
+        values = getattr(limits, kind)
+        if values is not None and len(values) == default.joint_count:
+            given[kind] = dict(zip(default.joint_names, values, strict=True))
+    own = {kind: getattr(arm, f"{kind}_limit") for kind in given}
+    stated: dict[str, Any] = {
+        kind: [by_name.get(joint, own[kind][k]) for k, joint in enumerate(arm.joint_names)]
+        for kind, by_name in given.items()
+    }
+    sources = {
+        kind: tuple(
+            LimitSource.maker if joint in by_name else arm.limit_sources[kind][k]
+            for k, joint in enumerate(arm.joint_names)
+        )
+        for kind, by_name in given.items()
+    }
+    limited = arm.with_limits(**stated, source=sources) if stated else arm
+    return limited if limits.tool_speed is None else limited.with_limits(tool_speed=limits.tool_speed)
 
 
 def _tool_frame(tool: ArrayLike) -> Array:
@@ -136,13 +245,11 @@ def _tool_frame(tool: ArrayLike) -> Array:
     return frame
 
 
-def _found(name_or_path: str | Path, base: str | None, tip: str | None) -> Arm:
+def _found(name_or_path: str | Path, base: str | None, tip: str | None, package_path: Sequence[str]) -> Arm:
     path = Path(name_or_path)
-    if path.suffix.lower() == ".urdf" or path.is_file():
-        return Arm.from_urdf_file(str(path), base=base or "", tip=tip or "")
-    if base or tip:
-        raise InvalidArgument(f"base, tip: '{name_or_path}' has its own; they are for a .urdf file only.")
-    return find(str(name_or_path))
+    if path.suffix.lower() in (".urdf", ".xacro", ".xml") or path.is_file():
+        return _named(f"'{path}'", read_description(path, package_path), base or "", tip or "", path.absolute().parent)
+    return find(str(name_or_path), base, tip)
 
 
 def acceleration_limit(arm: Arm) -> Array:

@@ -6,8 +6,8 @@ import math
 import tempfile
 import xml.etree.ElementTree as ET
 from collections import Counter
-from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -15,12 +15,14 @@ from typing import Any
 import numpy as np
 
 from dmpcpp._core import Arm
-from dmpcpp.errors import FileError, InvalidArgument
-from dmpcpp.robot._description import describe, find_mesh
+from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot._description import describe
 from dmpcpp.robot._dimensions import dimension_doubts
 from dmpcpp.robot._gravity import overloads, random_postures
 from dmpcpp.robot._inertia import is_physical, moment_change, nearest_physical
+from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._plausible_limits import limit_doubts
+from dmpcpp.robot._reader import read_description
 
 __all__ = ["Defect", "UrdfReport", "check"]
 
@@ -75,14 +77,18 @@ class UrdfReport:
         return found
 
 
-def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfReport:
+def check(path: str | PathLike[str], base: str = "", tip: str = "", package_path: Sequence[str] = ()) -> UrdfReport:
     """Look for defects: of the XML, the tree of links, joints and limits, masses, meshes, and by loading it.
+
+    The file is read as a run reads it. What keeps a run from its arm is fatal; what a run survives is not.
 
     Parameters
     ----------
     path : path
     base, tip : str
-        Links between which the arm stands; its only candidates unless given.
+        Links between which the arm stands; chosen unless given.
+    package_path : sequence of str
+        Where packages are, as `arms.load` takes it.
 
     Raises
     ------
@@ -91,9 +97,12 @@ def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfRepor
     """
     path = Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error}).") from None
+        text = read_description(path, package_path)
+    except InvalidArgument as error:
+        what, _, to_do = str(error).removeprefix(f"'{path}': ").partition("; ")
+        return UrdfReport(
+            str(path), (Defect(str(path), what, f"{to_do or 'Give a URDF'}".rstrip(".") + ".", True),), None
+        )
     try:
         robot = ET.fromstring(text)
     except ET.ParseError as error:
@@ -101,7 +110,9 @@ def check(path: str | PathLike[str], base: str = "", tip: str = "") -> UrdfRepor
             str(path), (Defect(str(path), f"not XML: {error}", "Fix the file at that place.", True),), None
         )
     found = [defect for look in _LOOKS for defect in look(robot, path.absolute().parent)]
-    arm, of_loading = _loaded(path, base, tip)
+    arm, of_loading = _loaded(text, path, base, tip)
+    if arm is not None and not any(defect.fatal for defect in of_loading):
+        found = [replace(defect, fatal=False) for defect in found]  # a run survives it: it is beside the arm
     found += [defect for defect in of_loading if not any(_covers(other, defect) for other in found)]
     return UrdfReport(str(path), tuple(sorted(found, key=lambda defect: not defect.fatal)), arm)
 
@@ -121,7 +132,7 @@ def _names(robot: ET.Element, _: Path) -> Iterator[Defect]:
             True,
         )
     if any("xacro" in str(element.tag) for element in robot.iter()):
-        yield Defect("the file", "holds xacro elements", "Expand it first: xacro robot.xacro > robot.urdf.", True)
+        yield Defect("the file", "holds leftovers of xacro", "They are passed over; take them out.", False)
     for kind in ("link", "joint"):
         counted = Counter(element.get("name") for element in robot.findall(kind))
         for name, count in counted.items():
@@ -281,11 +292,11 @@ def _meshes(robot: ET.Element, folder: Path) -> Iterator[Defect]:
         )
 
 
-def _loaded(path: Path, base: str, tip: str) -> tuple[Arm | None, list[Defect]]:
+def _loaded(text: str, path: Path, base: str, tip: str) -> tuple[Arm | None, list[Defect]]:
     """Load the arm, then prepare it for the physics, as a run does."""
     try:
-        arm = Arm.from_urdf_file(str(path), base=base, tip=tip)
-    except (InvalidArgument, FileError) as error:
+        arm = Arm.from_urdf(text, base, tip, str(path.absolute().parent))
+    except InvalidArgument as error:
         return None, [Defect("loading", str(error).rstrip("."), "A run is not possible until it is fixed.", True)]
     found = [
         Defect("loading", warning.rstrip("."), "Fix it, or ignore it deliberately.", False) for warning in arm.warnings

@@ -70,6 +70,7 @@ class BulletWorld:
             self.levers = levers(ET.fromstring(description.text), self.arm.joint_names)
             self.floor = floor_height(description.text, self.arm, self._around, self.contact_rules.still)
         self.inertia_repairs = description.repairs
+        self.unjudged_links = description.unjudged
         self._find_joints()
         self._switch_off_damping_and_motors()
         self._add_friction(disturbance)

@@ -96,6 +96,7 @@ class MuJoCo:
             self.floor = floor_height(description.text, arm, around, self.contact_rules.still)
             self._model = self._compile(description, obstacles)
         self.inertia_repairs = description.repairs
+        self.unjudged_links = description.unjudged
         self._damping = self._model.dof_damping.copy()
         self._model.dof_damping[:] += disturbance.damping
         self._model.dof_frictionloss[:] = disturbance.friction

@@ -75,8 +75,8 @@ class _Look:
         k = min(int(sample), len(self._position) - 1)
         share = sample - k
         if share == 0.0:
-            return self._position[k]
-        return (1.0 - share) * self._position[k] + share * self._position[k + 1]
+            return np.asarray(self._position[k])
+        return np.asarray((1.0 - share) * self._position[k] + share * self._position[k + 1])
 
     def _keep(self, sample: float, one: Clearance) -> None:
         kind = kind_of(one.other, self._links)

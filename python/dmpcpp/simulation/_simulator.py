@@ -85,6 +85,8 @@ class Simulator(Protocol):
     """Height of the ground in the frame of the URDF's root [m]; None for no ground."""
     levers: Array
     """(n,) how far each joint moves any point of the robot at most: m a rad, or 1 for one that slides."""
+    unjudged_links: tuple[str, ...]
+    """Links that the arm does not move and whose shapes cannot be read: their contacts are not judged."""
     inertia_repairs: tuple[InertiaRepair, ...]
     """Links whose inertia is not one of a rigid body and was replaced, and bodies that state none."""
 

@@ -136,7 +136,11 @@ def _read(arm: Arm) -> tuple[URDF, bool]:
 
 
 def _mesh_path(folder: str, fname: str) -> str:
-    return str(find_mesh(fname, folder))
+    """Where a mesh is; one that is nowhere is not drawn."""
+    try:
+        return str(find_mesh(fname, folder))
+    except InvalidArgument:
+        return fname
 
 
 def _middle_of_other_joints(model: URDF, arm: Arm) -> dict[str, float]:

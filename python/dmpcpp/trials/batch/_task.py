@@ -31,7 +31,7 @@ class Task:
     folder : str
         Where its results go.
     arm : str
-        Name or URDF, as `arms.load` takes it; `base`, `tip` and `tool` with it.
+        Name or URDF, as `arms.load` takes it; `base`, `tip`, `tool` and `package_path` with it.
     reading, preparation, options : mapping
         What `recordings.load`, `motion.Preparation` and `imitation.imitate` take by keyword.
     """
@@ -42,6 +42,7 @@ class Task:
     base: str | None = None
     tip: str | None = None
     tool: Sequence[float] | None = None
+    package_path: Sequence[str] = ()
     reading: Mapping[str, Any] = field(default_factory=dict)
     preparation: Mapping[str, Any] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -168,7 +169,10 @@ def _imitated(task: Task) -> dict[str, Any]:
     recording = recordings.load(task.file, **task.reading)
     recording = motion.prepare(recording, motion.Preparation(**task.preparation))
     run = imitation.imitate(
-        recording, arms.load(task.arm, task.base, task.tip, tool=task.tool), surroundings=around, **options
+        recording,
+        arms.load(task.arm, task.base, task.tip, tool=task.tool, package_path=task.package_path),
+        surroundings=around,
+        **options,
     )
     imitation.write(run, task.folder)
     if wants_report:
