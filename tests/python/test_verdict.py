@@ -54,6 +54,11 @@ class WrongTool(Bullet):
         return pose
 
 
+class Lighter(Bullet):
+    def inverse_dynamics(self, *state):
+        return 0.999 * super().inverse_dynamics(*state)
+
+
 def impossible_inertia():
     arm = Arm.from_urdf(PENDULUM.format(ixx=1.0), base="base", tip="rod")  # 0.03 + 0.03 < 1.0
     return run(reach(arm, [0.5]), arm)
@@ -96,8 +101,9 @@ FAULTS = {
     "inertia": impossible_inertia,
     "finite": lambda: run(simulator=NotANumber),
     "kinematics_mismatch": lambda: run(simulator=WrongTool),
+    "dynamics_mismatch": lambda: run(simulator=Lighter),
 }
-WITHOUT_A_MOMENT = {"tracking_position_rmse", "tracking_angle_rmse"}
+WITHOUT_A_MOMENT = {"tracking_position_rmse", "tracking_angle_rmse", "dynamics_mismatch"}
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ Users import ``dmpcpp.arms`` and ``dmpcpp.urdf_check``; the rest is for the room
 """
 
 from dmpcpp.robot._contact_rules import FLOOR, ContactRules, Surroundings, contact_rules, floor_height
-from dmpcpp.robot._description import RobotDescription, describe, links_of
+from dmpcpp.robot._description import RobotDescription, describe, links_beyond, links_of
 from dmpcpp.robot._dimensions import dimension_checks, dimension_doubts
 from dmpcpp.robot._disturbance import Disturbance
 from dmpcpp.robot._follow import POSE, Follow, following
@@ -44,6 +44,7 @@ __all__ = [
     "levers",
     "limit_doubts",
     "limits_summary",
+    "links_beyond",
     "links_of",
     "moment_change",
     "nearest_physical",

@@ -17,31 +17,43 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from dmpcpp._typing import Array
+from dmpcpp.errors import InvalidArgument
 
 Points = Array
+MESH_KINDS = (".obj", ".stl", ".dae", ".ply", ".glb", ".gltf", ".off")
+"""What collision meshes may be, by suffix."""
 Triangles = NDArray[np.intp]
 
 _CUTS = (0.25, 0.5, 0.75)  # where along each axis a cut is tried
 _WORTH = 0.93  # a cut must shrink the volume of the hull to this
+_THIN = 1e-3  # half the thickness of a plate, of its extent
 _DEPTH = 4  # at most 2^4 pieces
 
 
 def convex_pieces(path: Path) -> tuple[str, ...] | None:
-    """The pieces of an OBJ or STL mesh, each the text of an OBJ file of its hull.
+    """The pieces of a mesh in its file's unit of length, each the text of an OBJ file of its hull.
 
-    None for a file of another kind or without a volume: what to make of that is the engine's business.
+    A flat mesh becomes a thin plate. None for a mesh without triangles.
+
+    Raises
+    ------
+    InvalidArgument
+        The file cannot be read as a mesh, or what its kind needs is not installed.
     """
     return _pieces(str(path), path.stat().st_mtime_ns)
 
 
 @lru_cache(maxsize=128)
 def _pieces(path: str, _changed: int) -> tuple[str, ...] | None:
-    try:
-        points, triangles = _indexed(_read(Path(path)))
-        whole = _volume(points, triangles)
-        return tuple(_obj(points, piece) for piece in _cut(points, triangles, whole, _DEPTH))
-    except (ValueError, IndexError, QhullError):
+    corners = read_mesh(Path(path))
+    if corners.size == 0:
         return None
+    points, triangles = _indexed(corners)
+    whole = _volume(points, triangles)
+    if not np.isfinite(whole):
+        points, triangles = _thickened(points)
+        return (_obj(points, triangles),)
+    return tuple(_obj(points, piece) for piece in _cut(points, triangles, whole, _DEPTH))
 
 
 def mesh_points(path: Path) -> Points:
@@ -86,6 +98,18 @@ def _volume(points: Points, triangles: Triangles) -> float:
         return np.inf
 
 
+def _thickened(points: Points) -> tuple[Points, Triangles]:
+    """Return the corners of a plate around flat points: engines collide with volumes alone."""
+    centre = points.mean(axis=0)
+    axes = np.linalg.svd(points - centre, full_matrices=True)[2]
+    along = (points - centre) @ axes.T
+    low, high = along.min(axis=0), along.max(axis=0)
+    thin = max(_THIN * float((high - low).max()), 1e-9)
+    low, high = np.minimum(low, -thin), np.maximum(high, thin)
+    corners = np.array(list(product(*zip(low, high, strict=True)))) @ axes + centre
+    return corners, np.asarray(ConvexHull(corners).simplices, dtype=np.intp)
+
+
 def _obj(points: Points, triangles: Triangles) -> str:
     corners = points[np.unique(triangles)]
     hull = ConvexHull(corners)
@@ -101,14 +125,40 @@ def _indexed(corners: Array) -> tuple[Points, Triangles]:
     return points, numbers.reshape(-1, 3)
 
 
-def _read(path: Path) -> Array:
-    """Triangles (F, 3, 3) in the unit of the file; ValueError for a file that is neither OBJ nor STL."""
+def read_mesh(path: Path) -> Array:
+    """Return the triangles (F, 3, 3) of a mesh in the file's unit; a COLLADA file's own unit is m.
+
+    Raises
+    ------
+    InvalidArgument
+        Names the file and what to do.
+    """
     kind = path.suffix.lower()
-    if kind == ".obj":
-        return _read_obj(path.read_text(encoding="utf-8", errors="replace"))
-    if kind == ".stl":
-        return _read_stl(path.read_bytes())
-    raise ValueError(kind)
+    try:
+        if kind == ".obj":
+            return _read_obj(path.read_text(encoding="utf-8", errors="replace"))
+        return _read_stl(path.read_bytes()) if kind == ".stl" else _read_other(path)
+    except (ValueError, IndexError) as error:
+        why = str(error) or type(error).__name__
+        raise InvalidArgument(f"'{path.name}' cannot be read as a mesh ({why}). Convert it to .obj or .stl.") from None
+
+
+def _read_other(path: Path) -> Array:
+    """COLLADA, PLY, glTF and whatever else trimesh reads; axes as in the file, as RViz takes them."""
+    if path.suffix.lower() not in MESH_KINDS:
+        raise ValueError(f"of the readable kinds {', '.join(MESH_KINDS)} it is none")
+    try:
+        import trimesh
+    except ImportError:
+        raise ValueError('what reads it, trimesh, is not installed: pip install "dmpcpp[view]"') from None
+    try:
+        scene = trimesh.load_scene(str(path))
+        meshes = [mesh for mesh in scene.dump() if hasattr(mesh, "triangles")]
+    except Exception as error:  # whatever the libraries behind it raise of a damaged file
+        raise ValueError(str(error) or type(error).__name__) from None
+    named = str(scene.units).split(" * ")  # of COLLADA "0.01 * meters"
+    unit = float(named[0]) if len(named) == 2 else 1.0
+    return unit * np.concatenate([np.empty((0, 3, 3)), *(np.asarray(mesh.triangles) for mesh in meshes)])
 
 
 def _read_obj(text: str) -> Array:
@@ -116,6 +166,8 @@ def _read_obj(text: str) -> Array:
     points = np.array([word[1:4] for word in words if word[:1] == ["v"]], dtype=np.float64)
     faces = [[int(corner.split("/")[0]) for corner in word[1:]] for word in words if word[:1] == ["f"]]
     fans = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
+    if not fans:
+        return np.empty((0, 3, 3))
     index = np.array(fans)
     return np.asarray(points[np.where(index > 0, index - 1, index)])
 

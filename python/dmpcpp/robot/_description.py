@@ -8,6 +8,7 @@ from __future__ import annotations
 import copy
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations, product
 from pathlib import Path
@@ -22,8 +23,16 @@ from dmpcpp.robot._disturbance import Disturbance
 from dmpcpp.robot._engine_urdf import inertia_of, write_inertia, written
 from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
 from dmpcpp.robot._packages import find_mesh
-from dmpcpp.robot._urdf_changes import add_payload, freeze, normalize_axes, scale_masses
+from dmpcpp.robot._urdf_changes import (
+    add_payload,
+    freeze,
+    normalize_axes,
+    remove_bare_frames,
+    rename_links,
+    scale_masses,
+)
 
+_DRAWN = (".obj", ".stl", ".dae")  # by Bullet
 _WITH_MOTORS = ("revolute", "continuous", "prismatic")
 """Joints that a motor can hold; no engine here moves a planar one, and a floating one would fall off."""
 
@@ -41,6 +50,8 @@ class RobotDescription:
         is, and bodies that state none.
     unjudged : tuple of str
         Links that the arm does not move and whose shapes cannot be read: their contacts are not judged.
+    aliases : mapping of str to str
+        Other names of the links whose own an engine cannot bear.
     rigid_groups : tuple of frozenset of str
         The links of the robot, grouped: the links of a group never move against one another.
     neighbours : frozenset of frozenset of str
@@ -50,6 +61,7 @@ class RobotDescription:
     text: str
     repairs: tuple[InertiaRepair, ...]
     unjudged: tuple[str, ...]
+    aliases: Mapping[str, str]
     rigid_groups: tuple[frozenset[str], ...]
     neighbours: frozenset[frozenset[str]]
 
@@ -57,6 +69,14 @@ class RobotDescription:
     def repaired_links(self) -> tuple[str, ...]:
         """Links whose inertia was replaced."""
         return repaired_links(self.repairs)
+
+    def in_engine(self, link: str) -> str:
+        """Return the name of a link in the text."""
+        return self.aliases.get(link, link)
+
+    def link(self, in_engine: str) -> str:
+        """Return the link of that name in the text."""
+        return next((link for link, alias in self.aliases.items() if alias == in_engine), in_engine)
 
 
 def describe(
@@ -105,8 +125,10 @@ def describe(
     _change(robot, arm, disturbance or Disturbance())
     _refuse_massless(robot, arm)
     freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
+    remove_bare_frames(robot, (arm.base, arm.tip))
     groups = _rigid_groups(robot)
-    return RobotDescription(written(robot), repairs, unjudged, groups, _neighbours(robot, groups))
+    neighbours, aliases = _neighbours(robot, groups), rename_links(robot)
+    return RobotDescription(written(robot), repairs, unjudged, aliases, groups, neighbours)
 
 
 def links_of(arm: Arm) -> frozenset[str]:
@@ -163,8 +185,10 @@ def _prepared(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool, i
 
 def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: bool) -> None:
     """Find the meshes, and make those that collide convex."""
-    for visual in [] if visuals else link.findall("visual"):
-        link.remove(visual)
+    for visual in link.findall("visual"):
+        mesh = visual.find("geometry/mesh")
+        if not visuals or (mesh is not None and Path(mesh.get("filename", "")).suffix.lower() not in _DRAWN):
+            link.remove(visual)
     for mesh in link.iter("mesh"):
         mesh.set("filename", str(find_mesh(mesh.get("filename", ""), urdf_folder, link.get("name", ""))))
     for collision in link.findall("collision"):
@@ -173,9 +197,18 @@ def _prepare_shapes(link: ET.Element, urdf_folder: str, folder: Path, visuals: b
 
 def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: Path) -> None:
     mesh = collision.find("geometry/mesh")
-    pieces = convex_pieces(Path(mesh.get("filename", ""))) if mesh is not None else None
-    if pieces is None:
+    if mesh is None:
         return
+    path = Path(mesh.get("filename", ""))
+    try:
+        pieces = convex_pieces(path)
+    except InvalidArgument as error:
+        raise InvalidArgument(f"arm.urdf: link '{link.get('name')}': collision mesh {error}") from None
+    if pieces is None:
+        raise InvalidArgument(
+            f"arm.urdf: link '{link.get('name')}': collision mesh '{path.name}' holds no triangles. "
+            "Replace it, or take the <collision> out."
+        )
     link.remove(collision)
     for piece in pieces:
         path = folder / f"piece{len(list(folder.iterdir()))}.obj"

@@ -12,6 +12,8 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._typing import Array
 
 PAYLOAD_LINK = "dmpcpp_payload"
+_LONG_NAME = 200
+_MANY_LINKS = 100
 _PAYLOAD_RADIUS = 0.03  # m
 
 
@@ -45,6 +47,50 @@ def normalize_axes(robot: ET.Element) -> None:
         length = float(np.linalg.norm(vector))
         if length > 0.0 and length != 1.0:
             axis.set("xyz", _text(vector / length))
+
+
+def rename_links(robot: ET.Element) -> dict[str, str]:
+    """Rename links that an engine cannot bear; return the new names by the old ones.
+
+    To MuJoCo "world" is what stands still, and Bullet reads lines of 8191 bytes.
+    """
+    names = [link.get("name", "") for link in robot.findall("link")]
+    aliases = {name: f"dmpcpp_link_{k}" for k, name in enumerate(names) if name == "world" or len(name) > _LONG_NAME}
+    for element in (*robot.findall("link"), *robot.iterfind("joint/parent"), *robot.iterfind("joint/child")):
+        key = "name" if element.tag == "link" else "link"
+        element.set(key, aliases.get(element.get(key, ""), element.get(key, "")))
+    return aliases
+
+
+def remove_bare_frames(robot: ET.Element, keep: Collection[str]) -> None:
+    """Take out fixed links at the ends that have neither mass nor shape, where there are many links.
+
+    Bullet takes robots of 128 links, and descriptions are full of frames.
+    """
+    if len(robot.findall("link")) <= _MANY_LINKS:
+        return
+    links = {link.get("name", ""): link for link in robot.findall("link")}
+    while ends := [joint for joint in robot.findall("joint") if _ends_in_bare_frame(robot, joint, links, keep)]:
+        for joint in ends:
+            robot.remove(joint)
+            robot.remove(links.pop(_link_of(joint, "child")))
+
+
+def _ends_in_bare_frame(
+    robot: ET.Element, joint: ET.Element, links: Mapping[str, ET.Element], keep: Collection[str]
+) -> bool:
+    name = _link_of(joint, "child")
+    link = links[name]
+    mass = link.find("inertial/mass")
+    weighs = mass is not None and float(mass.get("value", 0.0)) > 0.0
+    has_shape = link.find("collision") is not None or link.find("visual") is not None
+    goes_on = any(_link_of(other, "parent") == name for other in robot.findall("joint"))
+    return joint.get("type") == "fixed" and not (weighs or has_shape or goes_on or name in keep)
+
+
+def _link_of(joint: ET.Element, role: str) -> str:
+    element = joint.find(role)
+    return "" if element is None else element.get("link", "")
 
 
 def freeze(robot: ET.Element, moving: Collection[str], types: Collection[str] = ()) -> None:

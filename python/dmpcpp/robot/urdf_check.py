@@ -29,7 +29,6 @@ __all__ = ["Defect", "UrdfReport", "check"]
 _MOVING = ("revolute", "continuous", "prismatic")
 _KINDS = (*_MOVING, "fixed", "floating", "planar")
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_MESHES = (".obj", ".stl", ".dae")
 
 
 @dataclass(frozen=True)
@@ -279,13 +278,6 @@ def _meshes(robot: ET.Element, folder: Path) -> Iterator[Defect]:
                         role == "collision",
                     )
                     continue
-                if Path(name).suffix.lower() not in _MESHES:
-                    yield Defect(
-                        where,
-                        f"its {role} mesh '{name}' is of a kind that not all engines read",
-                        "Convert it to .obj or .stl.",
-                        False,
-                    )
     if not any(link.find("collision") is not None for link in robot.findall("link")):
         yield Defect(
             "the robot", "no link has a <collision>: no contact can be found", "Give shapes to collide with.", False

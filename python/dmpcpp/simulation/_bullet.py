@@ -64,9 +64,13 @@ class Bullet(BulletWorld):
         velocity: Array | None = None,
     ) -> Array:
         """Torque for an acceleration of the arm's joints, the others held."""
+        position = self._state[0] if position is None else position
+        velocity = self._state[1] if velocity is None else velocity
+        if self._dynamics is not None:
+            damping = np.array([self._damping[k] for k in self._of_arm])
+            return self._dynamics.inverse_dynamics(position, velocity, acceleration) + damping * velocity
         held_q, held_qd = self._held_state
-        q = self._in_tree_order(self._state[0] if position is None else position, held_q)
-        qd = self._in_tree_order(self._state[1] if velocity is None else velocity, held_qd)
+        q, qd = self._in_tree_order(position, held_q), self._in_tree_order(velocity, held_qd)
         accelerations = self._in_tree_order(acceleration, self._at_rest)
         torque = self._p.calculateInverseDynamics(self._body, q, qd, accelerations, physicsClientId=self._client)
         # Bullet steps with the joint damping of the URDF but leaves it out of its inverse dynamics.
@@ -107,6 +111,11 @@ class Bullet(BulletWorld):
         """Pose of the tip in the base frame, by Bullet."""
         tip = self._link_pose(self._tip)
         return tip if self._base == -1 else self._root_in_base() @ tip
+
+    def masses(self) -> dict[str, float]:
+        """Masses of the links; of the fixed root Bullet says 0."""
+        info, client = self._p.getDynamicsInfo, self._client
+        return {name: float(info(self._body, k, physicsClientId=client)[0]) for name, k in self._links.items()}
 
     def contacts(self) -> list[Contact]:
         """The deepest contact of every pair that overlaps."""

@@ -22,10 +22,19 @@ import numpy as np
 from dmpcpp._core import Arm
 from dmpcpp._quiet import quiet
 from dmpcpp._typing import Array
-from dmpcpp.errors import InvalidArgument, MissingDependency
-from dmpcpp.robot import Disturbance, Surroundings, contact_rules, describe, floor_height, levers, links_of
+from dmpcpp.errors import MissingDependency
+from dmpcpp.robot import (
+    Disturbance,
+    RobotDescription,
+    Surroundings,
+    contact_rules,
+    describe,
+    floor_height,
+    levers,
+    links_of,
+)
 from dmpcpp.simulation._objects import Box, refuse_names
-from dmpcpp.simulation._simulator import FLOOR, GRAVITY, checked_time_step
+from dmpcpp.simulation._simulator import FLOOR, GRAVITY, checked_time_step, refused
 
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
 
@@ -66,12 +75,13 @@ class BulletWorld:
         self._p.setGravity(0.0, 0.0, GRAVITY, physicsClientId=self._client)
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(self.arm, Path(folder), visuals=visuals, disturbance=disturbance)
-            self._body = self._load(description.text, Path(folder, "arm.urdf"))
+            self._body = self._load(description, Path(folder, "arm.urdf"))
             self.levers = levers(ET.fromstring(description.text), self.arm.joint_names)
-            self.floor = floor_height(description.text, self.arm, self._around, self.contact_rules.still)
+            still = frozenset(map(description.in_engine, self.contact_rules.still))
+            self.floor = floor_height(description.text, self.arm, self._around, still)
         self.inertia_repairs = description.repairs
         self.unjudged_links = description.unjudged
-        self._find_joints()
+        self._find_joints(description)
         self._switch_off_damping_and_motors()
         self._add_friction(disturbance)
         self._ignore_overlaps()
@@ -80,6 +90,22 @@ class BulletWorld:
         if self.floor is not None:
             self._add_floor(self.floor)
         self._read()
+        self._dynamics = self._own_dynamics(description)
+
+    def _own_dynamics(self, description: RobotDescription) -> Arm | None:
+        """Return what stands in for Bullet's inverse dynamics where that fails, and say so in the name.
+
+        Bullet refuses inertias of which rounding makes two halves differ by 1e-15: large ones with products.
+        """
+        still = [0.0] * len(self._moving)
+        try:
+            with quiet():
+                self._p.calculateInverseDynamics(self._body, still, still, still, physicsClientId=self._client)
+        except SystemError:
+            self.name = f"{self.name} (inverse dynamics by KDL)"
+            base, tip = (description.in_engine(name) for name in (self.arm.base, self.arm.tip))
+            return Arm.from_urdf(description.text, base, tip)
+        return None
 
     def close(self) -> None:
         """Free the world; a second call does nothing."""
@@ -98,23 +124,23 @@ class BulletWorld:
 
     # ---- setting up --------------------------------------------------------------------------------------
 
-    def _load(self, urdf: str, path: Path) -> int:
+    def _load(self, description: RobotDescription, path: Path) -> int:
         p = self._p
-        path.write_text(urdf, encoding="utf-8")
+        path.write_text(description.text, encoding="utf-8")
         options = {"useFixedBase": True, "flags": p.URDF_USE_INERTIA_FROM_FILE | p.URDF_USE_SELF_COLLISION}
         with quiet() as heard:
             try:
                 return int(p.loadURDF(str(path), **options, physicsClientId=self._client))
             except p.error as error:
                 reason = " ".join(heard().split()) or str(error)
-        raise InvalidArgument(f"arm.urdf: PyBullet cannot load '{self.arm.name}': {reason}")
+        raise refused("PyBullet", self.arm, "mujoco", reason)
 
-    def _find_joints(self) -> None:
+    def _find_joints(self, description: RobotDescription) -> None:
         """Index joints and links by name: Bullet has its own order, with fingers and fixed joints in it."""
         p, client, body = self._p, self._client, self._body
         infos = [p.getJointInfo(body, i, physicsClientId=client) for i in range(self._joint_count())]
-        self._link_names = {info[0]: info[12].decode() for info in infos}
-        self._link_names[-1] = p.getBodyInfo(body, physicsClientId=client)[0].decode()
+        self._link_names = {info[0]: description.link(info[12].decode()) for info in infos}
+        self._link_names[-1] = description.link(p.getBodyInfo(body, physicsClientId=client)[0].decode())
         self._links = {name: index for index, name in self._link_names.items()}
         self._base, self._tip = self._links[self.arm.base], self._links[self.arm.tip]
         self._index_moving([info for info in infos if info[2] != p.JOINT_FIXED])

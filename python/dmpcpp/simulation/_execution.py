@@ -14,6 +14,7 @@ from dmpcpp.robot import POSE, Disturbance, Follow
 from dmpcpp.simulation._control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
 from dmpcpp.simulation._control_loop import ControlLoop, Progress, Recorder, Sensors, by_motors, by_torque
 from dmpcpp.simulation._default import default_simulator
+from dmpcpp.simulation._dynamics_check import DynamicsMismatch, dynamics_mismatch
 from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
 from dmpcpp.simulation._reference import INTERPOLATIONS, Interpolation, Reference, sample
 from dmpcpp.simulation._simulator import Simulator
@@ -97,6 +98,7 @@ def execute(
     )
     with ExitStack() as engines:
         plant, model = _plant_and_model(engines, simulator, arm, 1.0 / rate, disturbance)
+        dynamics = dynamics_mismatch(model, arm)
         if mode == "computed_torque":
             controller: Controller = ComputedTorque(model, gains, arm.effort_limit, hold / rate)
             drive = by_torque(arm.effort_limit)
@@ -104,7 +106,7 @@ def execute(
             controller, drive = Servo(mode, hold / rate, hold), by_motors
         recorder = Recorder(len(reference.time), arm.joint_count)
         ControlLoop(plant, controller, drive, Sensors(disturbance, 1.0 / rate), hold).run(reference, recorder, progress)
-        return _log(joints, mode, plant, reference, recorder, disturbance, follow)
+        return _log(joints, mode, plant, reference, recorder, disturbance, follow, dynamics)
 
 
 def _log(
@@ -115,6 +117,7 @@ def _log(
     recorder: Recorder,
     disturbance: Disturbance,
     follow: Follow,
+    dynamics: DynamicsMismatch,
 ) -> ExecutionLog:
     done = slice(recorder.done)
     return ExecutionLog(
@@ -134,6 +137,7 @@ def _log(
         contacts=tuple(ContactEvent(k, float(reference.time[k]), c) for k, c in recorder.contacts),
         disturbance=disturbance,
         follow=follow,
+        dynamics=dynamics,
     )
 
 

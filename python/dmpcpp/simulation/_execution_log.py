@@ -9,6 +9,7 @@ from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.metrics import StageErrors, compare
 from dmpcpp.robot import POSE, Disturbance, Follow, InertiaRepair, repaired_links
+from dmpcpp.simulation._dynamics_check import DynamicsMismatch
 from dmpcpp.simulation._simulator import Contact
 from dmpcpp.simulation._verdict import Verdict, judge
 
@@ -74,6 +75,8 @@ class ExecutionLog:
         What the controller did not know.
     follow : Follow
         What of the tool's pose is judged.
+    dynamics : DynamicsMismatch
+        How far the masses and gravity torques of the controller's model are from KDL's.
     """
 
     arm: Arm
@@ -96,6 +99,7 @@ class ExecutionLog:
     contacts: tuple[ContactEvent, ...]
     disturbance: Disturbance = field(default_factory=Disturbance)
     follow: Follow = POSE
+    dynamics: DynamicsMismatch = field(default_factory=DynamicsMismatch)
 
     @property
     def repaired_links(self) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ import numpy as np
 from dmpcpp._core import Arm
 from dmpcpp._quiet import quiet
 from dmpcpp._typing import Array
-from dmpcpp.errors import InvalidArgument, MissingDependency
+from dmpcpp.errors import MissingDependency
 from dmpcpp.robot import (
     Disturbance,
     RobotDescription,
@@ -33,11 +33,12 @@ from dmpcpp.robot import (
     links_of,
 )
 from dmpcpp.simulation._objects import Box, refuse_names
-from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step
+from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step, refused
 
 _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
-_COMPILER = '<mujoco><compiler fusestatic="false" strippath="false"/></mujoco>'
-"""In the URDF: a link that is fixed to another keeps its name, a mesh its folder."""
+_COMPILER = '<mujoco><compiler fusestatic="false" strippath="false" boundmass="1e-12" boundinertia="1e-14"/></mujoco>'
+"""In the URDF: a link that is fixed to another keeps its name, a mesh its folder, and a link without mass between two
+joints gets one that no torque shows, as no moving body may be without."""
 _SURROUNDINGS = "dmpcpp_surroundings"  # a body of their own: the root link of a URDF may be called "world"
 _GROUND = "dmpcpp_ground"
 
@@ -92,8 +93,10 @@ class MuJoCo:
         disturbance = disturbance or Disturbance()
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(arm, Path(folder), disturbance=disturbance, only_the_arm_moves=True)
+            self._description = description
             self.levers = levers(ET.fromstring(description.text), arm.joint_names)
-            self.floor = floor_height(description.text, arm, around, self.contact_rules.still)
+            still = frozenset(map(description.in_engine, self.contact_rules.still))
+            self.floor = floor_height(description.text, arm, around, still)
             self._model = self._compile(description, obstacles)
         self.inertia_repairs = description.repairs
         self.unjudged_links = description.unjudged
@@ -165,6 +168,11 @@ class MuJoCo:
         tip = self._pose(self._tip)
         return tip if self._base_is_root else np.linalg.inv(self._pose(self._base)) @ tip
 
+    def masses(self) -> dict[str, float]:
+        """Masses of the links."""
+        model = self._model
+        return {self._description.link(str(model.body(k).name)): float(model.body_mass[k]) for k in range(model.nbody)}
+
     def contacts(self) -> list[Contact]:
         """The deepest contact of every pair that overlaps."""
         if self._data.ncon == 0:
@@ -212,8 +220,7 @@ class MuJoCo:
             with quiet():  # older ones write warnings to the terminal
                 model = self._spec(description, obstacles).compile()
         except (ValueError, m.FatalError) as error:
-            reason = " ".join(str(error).split())
-            raise InvalidArgument(f"arm.urdf: MuJoCo cannot load '{self.arm.name}': {reason}") from None
+            raise refused("MuJoCo", self.arm, "bullet", " ".join(str(error).split())) from None
         model.opt.timestep = self.time_step
         model.opt.gravity[:] = 0.0, 0.0, GRAVITY
         model.opt.integrator = m.mjtIntegrator.mjINT_EULER
@@ -223,8 +230,11 @@ class MuJoCo:
 
     def _spec(self, description: RobotDescription, obstacles: Sequence[Box]) -> Any:
         spec = self._m.MjSpec.from_string(description.text.replace("</robot>", f"{_COMPILER}</robot>"))
-        for a, b in sorted(tuple(sorted(pair)) for pair in self.contact_rules.left_out if FLOOR not in pair):
-            spec.add_exclude(bodyname1=a, bodyname2=b)
+        bodies = {body.name for body in spec.bodies}
+        for pair in sorted(tuple(sorted(pair)) for pair in self.contact_rules.left_out if FLOOR not in pair):
+            a, b = map(description.in_engine, pair)
+            if bodies >= {a, b}:
+                spec.add_exclude(bodyname1=a, bodyname2=b)
         self._add_surroundings(spec, obstacles)
         return spec
 
@@ -234,7 +244,7 @@ class MuJoCo:
             ground, size = spec.worldbody.add_body(name=_GROUND), [_FLOOR_DRAWN, _FLOOR_DRAWN, 1.0]
             ground.add_geom(name=FLOOR, type=kinds.mjGEOM_PLANE, size=size, pos=[0.0, 0.0, self.floor])
             for link in sorted(self.contact_rules.off_floor):
-                spec.add_exclude(bodyname1=link, bodyname2=_GROUND)
+                spec.add_exclude(bodyname1=self._description.in_engine(link), bodyname2=_GROUND)
         for box in obstacles:
             half = [0.5 * side for side in box.size]
             still.add_geom(name=box.name, type=kinds.mjGEOM_BOX, size=half, pos=list(box.centre))
@@ -246,7 +256,8 @@ class MuJoCo:
         self._order = np.array([model.jnt_dofadr[model.joint(name).id] for name in self.arm.joint_names])
         self._q, self._qd, self._applied = self._data.qpos, self._data.qvel, self._data.qfrc_applied
         self._torque = np.empty(model.nv)
-        self._base, self._tip = model.body(self.arm.base).id, model.body(self.arm.tip).id
+        in_engine = self._description.in_engine
+        self._base, self._tip = (model.body(in_engine(name)).id for name in (self.arm.base, self.arm.tip))
         self._base_is_root = bool(np.array_equal(self._base_pose(), np.eye(4)))
 
     def _base_pose(self) -> Array:
@@ -291,7 +302,7 @@ class MuJoCo:
         return str(self._model.geom(geom).name) if body in (_SURROUNDINGS, _GROUND) else body
 
     def _body_of(self, geom: int) -> str:
-        return str(self._model.body(int(self._model.geom_bodyid[geom])).name)
+        return self._description.link(str(self._model.body(int(self._model.geom_bodyid[geom])).name))
 
 
 def _mujoco() -> ModuleType:

@@ -66,6 +66,14 @@ def checked_time_step(time_step: float) -> float:
     return float(time_step)
 
 
+def refused(engine: str, arm: Arm, other: str, reason: str) -> InvalidArgument:
+    """Return the error of an engine that cannot load an arm; its own words come last."""
+    return InvalidArgument(
+        f"arm.urdf: {engine} cannot load '{arm.name}'. `dmpcpp check-urdf` looks for the defect; the other engine may "
+        f"take it: --simulator {other}. Its own words: {reason}"
+    )
+
+
 class Simulator(Protocol):
     """An arm with a fixed base in a world with gravity, advanced one ``time_step`` at a time.
 
@@ -124,6 +132,9 @@ class Simulator(Protocol):
 
     def tool_pose(self) -> Array:
         """Measured pose (4, 4) of ``arm.tip`` by the engine's own forward kinematics."""
+
+    def masses(self) -> dict[str, float]:
+        """Masses of the links as the engine has them [kg]."""
 
     def contacts(self) -> list[Contact]:
         """Contacts found in the last step: by Bullet at its start, by MuJoCo at its end."""

@@ -44,6 +44,7 @@ class Tolerances:
     inertia_change: float = 0.05
     repaired_inertias: int = 0
     kinematics_mismatch: float = 1e-6
+    dynamics_mismatch: float = 1e-6
 
 
 @dataclass(frozen=True)
@@ -172,4 +173,7 @@ def _model(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     yield _inertia(log, tolerances)
     mismatch = position_errors(log.arm.forward_kinematics(log.position), log.tool_pose)
     yield Series(log.time, mismatch).at_most("kinematics_mismatch", tolerances.kinematics_mismatch, "m")
+    off, limit = log.dynamics, tolerances.dynamics_mismatch
+    detail = "" if off.value <= limit else off.detail
+    yield Check("dynamics_mismatch", off.value <= limit, off.value, limit, "1", None, detail)
     yield from dimension_checks(log.arm)

@@ -27,7 +27,15 @@ _COVERAGE = 0.99  # share of the plan that the log must hold
 _GAP = 0.1  # s; a longer silence of the log hides too much
 _SAMPLES = 4  # of the log within the motion, at least
 _TURN = 2.0 * np.pi  # rad (m); no joint is that far beyond its limits: it is another unit
-_NOT_RECORDED = ("finite", "self_collision", "floor_contact", "object_contact", "inertia", "kinematics_mismatch")
+_NOT_RECORDED = (
+    "finite",
+    "self_collision",
+    "floor_contact",
+    "object_contact",
+    "inertia",
+    "kinematics_mismatch",
+    "dynamics_mismatch",
+)
 _NO_TORQUE = "the log holds no torques: they are not judged"
 _OF_TORQUE = ("torque_ratio", "torque_clipped")
 
