@@ -147,7 +147,7 @@ def test_a_state_that_is_not_finite_stops_the_run_and_nothing_is_printed_or_logg
     arm = arms.find("panda")
     log = simulation.execute(arm, swing(arm), simulator=Breaks)
     assert "finite" in {check.name for check in log.verdict.failed}
-    assert len(log.time) == 501
+    assert len(log.time) == 491  # ten calls are made right after loading
     assert list(tmp_path.iterdir()) == []
     assert capfd.readouterr() == ("", "")
 

@@ -334,7 +334,7 @@ def test_a_state_that_leaves_the_finite_numbers_stops_the_run_and_is_caught(pand
     log = simulation.execute(panda, swing(panda), simulator=Breaks)
     check = log.verdict["finite"]
     assert not check.ok
-    assert (len(log.time), check.value) == (501, log.planned_steps - 501)
+    assert (len(log.time), check.value) == (491, log.planned_steps - 491)
     assert check.time == log.time[-1]
     assert np.isfinite(log.position).all()
     json.dumps([each.to_dict() for each in log.verdict.checks], allow_nan=False)

@@ -16,6 +16,7 @@ from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why
 from dmpcpp.robot._reach import farthest_reach, require_within_reach
 from dmpcpp.robot._shapes import levers
+from dmpcpp.robot._stated_limits import payload_of, with_description, with_limits_file, with_payload, with_stated
 
 __all__ = [
     "FLOOR",
@@ -49,10 +50,15 @@ __all__ = [
     "moment_change",
     "nearest_physical",
     "overloads",
+    "payload_of",
     "random_postures",
     "repaired_links",
     "require_holdable",
     "require_within_reach",
     "unjudged",
     "why",
+    "with_description",
+    "with_limits_file",
+    "with_payload",
+    "with_stated",
 ]

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from dmpcpp._core import Arm, LimitSource
+from dmpcpp.robot._stated_limits import payload_of
 
 __all__ = ["assumptions", "limits_summary"]
 
@@ -29,7 +30,7 @@ def limits_summary(arm: Arm) -> dict[str, Any]:
         "upper": [_plain(x) for x in arm.upper.tolist()],
         "sources": _names(arm.limit_sources["position"]),
     }
-    return {**found, "tool_speed": _plain(arm.tool_speed_limit)}
+    return {**found, "tool_speed": _plain(arm.tool_speed_limit), "payload": payload_of(arm)}
 
 
 def assumptions(arm: Arm) -> tuple[str, ...]:

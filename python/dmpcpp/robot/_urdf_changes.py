@@ -12,6 +12,8 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._typing import Array
 
 PAYLOAD_LINK = "dmpcpp_payload"
+"""Of a disturbance: the controller does not know of it."""
+KNOWN_PAYLOAD = "dmpcpp_known_payload"
 _LONG_NAME = 200
 _MANY_LINKS = 100
 _PAYLOAD_RADIUS = 0.03  # m
@@ -26,17 +28,17 @@ def scale_masses(robot: ET.Element, factors: Mapping[str, float]) -> None:
                 element.set(name, repr(float(value) * factor))
 
 
-def add_payload(robot: ET.Element, tip: str, mass: float, offset: tuple[float, float, float]) -> None:
+def add_payload(robot: ET.Element, tip: str, mass: float, offset: tuple[float, ...], name: str = PAYLOAD_LINK) -> None:
     """Fix a solid sphere of ``mass`` [kg] to the tip, without a collision shape."""
     inertia = repr(0.4 * mass * _PAYLOAD_RADIUS**2)
-    link = ET.SubElement(robot, "link", name=PAYLOAD_LINK)
+    link = ET.SubElement(robot, "link", name=name)
     inertial = ET.SubElement(link, "inertial")
     ET.SubElement(inertial, "mass", value=repr(mass))
     moments = {"ixx": inertia, "iyy": inertia, "izz": inertia, "ixy": "0", "ixz": "0", "iyz": "0"}
     ET.SubElement(inertial, "inertia", moments)
-    joint = ET.SubElement(robot, "joint", name=f"{PAYLOAD_LINK}_joint", type="fixed")
+    joint = ET.SubElement(robot, "joint", name=f"{name}_joint", type="fixed")
     ET.SubElement(joint, "parent", link=tip)
-    ET.SubElement(joint, "child", link=PAYLOAD_LINK)
+    ET.SubElement(joint, "child", link=name)
     ET.SubElement(joint, "origin", xyz=_text(offset))
 
 
