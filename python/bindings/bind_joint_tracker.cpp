@@ -39,11 +39,23 @@ IkStatus track(JointTracker& tracker, const Array& pose, double dt) {
   return status;
 }
 
+// Of joints that a tracker does not take: which one, or that there are not as many as the arm has.
+std::string why_refused(const Arm& arm, const Eigen::VectorXd& q) {
+  const std::string expected = std::to_string(arm.joint_count()) + " finite values within the joint limits.";
+  if (q.size() != arm.joint_count() || !q.allFinite())
+    return "joints: " + std::to_string(q.size()) + " values, expected " + expected;
+  Eigen::Index worst;
+  (arm.lower() - q).cwiseMax(q - arm.upper()).maxCoeff(&worst);
+  return "joints[" + std::to_string(worst) + "]: joint '" +
+         arm.joint_names()[static_cast<std::size_t>(worst)] + "' at " + std::to_string(q[worst]) +
+         ", expected within the limits " + std::to_string(arm.lower()[worst]) + " to " +
+         std::to_string(arm.upper()[worst]) + " (to 0.001).";
+}
+
 void set_joints(JointTracker& tracker, const Array& q) {
-  if (tracker.set_joints(to_vector(q, "joints")) == IkStatus::invalid_input)
-    throw InvalidArgument("joints: " + std::to_string(q.size()) + " values, expected " +
-                          std::to_string(tracker.arm().joint_count()) +
-                          " finite values within the joint limits.");
+  const Eigen::VectorXd joints = to_vector(q, "joints");
+  if (tracker.set_joints(joints) == IkStatus::invalid_input)
+    throw InvalidArgument(why_refused(tracker.arm(), joints));
 }
 
 }  // namespace
@@ -74,6 +86,8 @@ is none.)")
           "(n,) rad/s or m/s, of the last step.")
       .def_property_readonly("position_error", &JointTracker::position_error, "m, of the last step, by KDL.")
       .def_property_readonly("angle_error", &JointTracker::angle_error, "rad, of the last step, by KDL.")
+      .def_property_readonly("limit_excess", &JointTracker::limit_excess,
+                             "rad or m: how far the joints that were given last lay beyond a limit; 0 within.")
       .def_property_readonly("arm", &JointTracker::arm)
       .def_property_readonly("options", [](const JointTracker& t) { return t.options(); })
       .def("__copy__", [](const JointTracker& t) { return JointTracker(t); })

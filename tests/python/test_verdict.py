@@ -80,6 +80,14 @@ def too_sudden():
     return run(reach(PANDA, np.add(HOME["panda"], [0.0, 0.3, 0, 0, 0, 0, 0]), 0.4))  # 10.8 rad/s^2; Franka allows 7.5
 
 
+def too_jerky():
+    return run(arm=PANDA.with_limits(jerk=[30.0] * 7))
+
+
+def too_fast_a_tool():
+    return run(arm=PANDA.with_limits(tool_speed=0.05))
+
+
 HEAVY = Disturbance(payload=3.0)
 SOFT = {"kp": 100.0, "kd": 20.0}
 FAULTS = {
@@ -92,6 +100,7 @@ FAULTS = {
     "torque_clipped": weak,
     "velocity_ratio": too_fast,
     "acceleration_ratio": too_sudden,
+    "jerk_ratio": too_jerky,
     "joint_margin": narrow,
     "self_collision": lambda: run(reach(PANDA, FOLDED, 2.0)),
     "floor_contact": lambda: run(reach(PANDA, LOW, 2.0)),

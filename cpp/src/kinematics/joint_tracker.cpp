@@ -1,6 +1,7 @@
 #include <dmp/error.hpp>
 #include <dmp/joint_tracker.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -41,13 +42,17 @@ struct JointTracker::State {
         pull(tracker.has_null_space() ? options.limit_pull : 0.0) {}
 
   bool accepts(const Eigen::VectorXd& q) const {
-    return q.size() == arm.joint_count() && q.allFinite() && (q - arm.lower()).minCoeff() >= 0.0 &&
-           (arm.upper() - q).minCoeff() >= 0.0;
+    return q.size() == arm.joint_count() && q.allFinite() && excess_of(q) <= detail::limit_tolerance;
+  }
+
+  double excess_of(const Eigen::VectorXd& q) const {
+    return std::max({0.0, (arm.lower() - q).maxCoeff(), (q - arm.upper()).maxCoeff()});
   }
 
   void stand_at(const Eigen::VectorXd& q) {
-    at = tracker.standing_at(q);
-    joints = q;
+    excess = excess_of(q);
+    joints = q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
+    at = tracker.standing_at(joints);
     velocity.setZero(q.size());
   }
 
@@ -58,13 +63,13 @@ struct JointTracker::State {
   double pull;
   detail::Descent at;
   Eigen::VectorXd joints, velocity;
-  double position_error = 0.0, angle_error = 0.0;
+  double position_error = 0.0, angle_error = 0.0, excess = 0.0;
 };
 
 JointTracker::JointTracker(Arm arm, const Eigen::VectorXd& start, const TrackOptions& options) {
   check(arm, options);
   state_ = std::make_unique<State>(std::move(arm), options);
-  detail::check_within_limits(start, this->arm(), "start");
+  detail::brought_within_limits(start, this->arm(), "start");
   state_->stand_at(start);
 }
 JointTracker::JointTracker(const JointTracker& other)
@@ -74,6 +79,7 @@ JointTracker::JointTracker(const JointTracker& other)
   state_->velocity = other.state_->velocity;
   state_->position_error = other.state_->position_error;
   state_->angle_error = other.state_->angle_error;
+  state_->excess = other.state_->excess;
 }
 JointTracker::JointTracker(JointTracker&&) noexcept = default;
 JointTracker& JointTracker::operator=(JointTracker other) noexcept {
@@ -108,6 +114,7 @@ const Eigen::VectorXd& JointTracker::joints() const noexcept { return state_->jo
 const Eigen::VectorXd& JointTracker::velocity() const noexcept { return state_->velocity; }
 double JointTracker::position_error() const noexcept { return state_->position_error; }
 double JointTracker::angle_error() const noexcept { return state_->angle_error; }
+double JointTracker::limit_excess() const noexcept { return state_->excess; }
 const Arm& JointTracker::arm() const { return state_->arm; }
 const TrackOptions& JointTracker::options() const { return state_->options; }
 

@@ -39,7 +39,7 @@ void check_options(const FollowOptions& options, const Arm& arm) {
   detail::check_positive(options.starts, "options.starts");
   detail::check_positive(options.position_tolerance, "options.position_tolerance");
   detail::check_positive(options.angle_tolerance, "options.angle_tolerance");
-  if (options.start) detail::check_within_limits(*options.start, arm, "options.start");
+  if (options.start) detail::brought_within_limits(*options.start, arm, "options.start");
 }
 
 detail::TargetPath target_path(const Eigen::VectorXd& times, const Poses& poses, const FollowOptions& options,
@@ -123,9 +123,11 @@ PathReport InverseKinematics::Solver::report(const detail::TargetPath& path, con
 }
 
 JointTrajectory InverseKinematics::follow(const Eigen::VectorXd& times, const Poses& poses,
-                                          const FollowOptions& options) {
+                                          const FollowOptions& given) {
   check_path(times, poses);
-  check_options(options, arm());
+  check_options(given, arm());
+  FollowOptions options = given;
+  if (options.start) options.start = detail::brought_within_limits(*given.start, arm(), "options.start");
   const detail::TargetPath path = target_path(times, poses, options, arm().velocity_limit());
   const detail::Tolerances tolerances = {options.position_tolerance, options.angle_tolerance,
                                          solver_->search.lm().goal()};

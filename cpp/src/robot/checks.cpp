@@ -51,13 +51,15 @@ void check_joints(const Eigen::VectorXd& q, Eigen::Index count, const std::strin
     if (!std::isfinite(q[i])) throw InvalidArgument(name + "[" + std::to_string(i) + "]: not finite.");
 }
 
-void check_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::string& name) {
+Eigen::VectorXd brought_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::string& name) {
   check_joints(q, arm.joint_count(), name);
   for (Eigen::Index i = 0; i < q.size(); ++i)
-    if (q[i] < arm.lower()[i] || q[i] > arm.upper()[i])
-      throw InvalidArgument(name + "[" + std::to_string(i) + "]: " + std::to_string(q[i]) +
+    if (q[i] < arm.lower()[i] - limit_tolerance || q[i] > arm.upper()[i] + limit_tolerance)
+      throw InvalidArgument(name + "[" + std::to_string(i) + "]: joint '" +
+                            arm.joint_names()[static_cast<std::size_t>(i)] + "' at " + std::to_string(q[i]) +
                             ", expected within the limits " + std::to_string(arm.lower()[i]) + " to " +
-                            std::to_string(arm.upper()[i]) + ".");
+                            std::to_string(arm.upper()[i]) + " (to 0.001).");
+  return q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
 }
 
 Frame rigid_frame(const Eigen::Matrix4d& pose) {

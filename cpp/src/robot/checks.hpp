@@ -20,8 +20,12 @@ void check_weight(const Vector6& weight);
 void check_times(const Eigen::VectorXd& times);
 /// InvalidArgument unless q is one finite value for each of `count` joints.
 void check_joints(const Eigen::VectorXd& q, Eigen::Index count, const std::string& name);
-/// InvalidArgument unless each of n finite values lies within the arm's limits.
-void check_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::string& name);
+/// rad or m that a joint may be read beyond its limits: encoders have noise, and hard stops give way.
+inline constexpr double limit_tolerance = 1e-3;
+
+/// The joints brought back onto the arm's limits. InvalidArgument, naming joint, value and limit, unless they
+/// are n finite values at most limit_tolerance beyond.
+Eigen::VectorXd brought_within_limits(const Eigen::VectorXd& q, const Arm& arm, const std::string& name);
 
 /// The frame of a pose that is_pose accepts, with the nearest rotation.
 Frame rigid_frame(const Eigen::Matrix4d& pose);

@@ -2812,6 +2812,11 @@ class JointTracker:
     def joints(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         ...
     @property
+    def limit_excess(self) -> float:
+        """
+        rad or m: how far the joints that were given last lay beyond a limit; 0 within.
+        """
+    @property
     def options(self) -> TrackOptions:
         ...
     @property

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._limit_options import limit_options, taken_limits
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def optional_arm_options(what: str) -> Callable[[Callable[..., None]], Callable[
 
 
 def _decorated(command: Callable[..., None], **arm: Any) -> Callable[..., None]:
-    for option in reversed((click.option("--arm", metavar="NAME|FILE.urdf", **arm), *_CHOICE)):
+    for option in reversed((click.option("--arm", metavar="NAME|FILE.urdf", **arm), *_CHOICE, limit_options)):
         command = option(command)
     return command
 
@@ -121,7 +122,7 @@ def taken_choice(options: dict[str, Any]) -> dict[str, Any]:
 
         given["tool"] = list(numbers("--tool", given["tool"], 3, 6))
     given["package_path"] = list(given["package_path"])
-    return given
+    return {**given, "limits": taken_limits(options)}
 
 
 def taken_arm(options: dict[str, Any]) -> Arm:

@@ -78,6 +78,13 @@ def _run_options(
                 help="Also write a robot program if verified: joints.yaml, joints_bag, joints.script. Repeatable.",
             ),
             accept_option,
+            click.option(
+                "--dynamics",
+                default="full",
+                show_default=True,
+                type=click.Choice(["full", "none"]),
+                help="none: by kinematics alone, for an arm without inertias; torque is then not judged.",
+            ),
             click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
@@ -136,7 +143,7 @@ def imitate(file: Path, **options: Any) -> None:
     how = {"surroundings": taken_surroundings(options), "follow": options.pop("follow")}
     if callable(placing["place"]):
         placing["place"] = partial(placing["place"], follow=how["follow"])
-    taken = ("out", "seed", "basis_count", "simulator", "formats", "accept", "no_report", "as_json")
+    taken = ("out", "seed", "basis_count", "simulator", "formats", "accept", "dynamics", "no_report", "as_json")
     run = {name: options.pop(name) for name in taken}
     recording = recordings.load(file, **taken_recording(options))
     recording, *others = motion.prepare_all(recording, preparation)
@@ -153,6 +160,7 @@ def _carry_out(
     simulator: str,
     formats: tuple[str, ...],
     accept: tuple[str, ...],
+    dynamics: str,
     no_report: bool,
     as_json: bool,
     **how: Any,
@@ -170,6 +178,7 @@ def _carry_out(
             basis_count=basis_count,
             simulator=simulator,
             accept=accepted,
+            dynamics=dynamics,
             progress=progress,
             **how,
         )

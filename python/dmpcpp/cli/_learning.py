@@ -21,8 +21,9 @@ from dmpcpp.cli._arm_options import (
 )
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
+from dmpcpp.cli._flags import flag
 from dmpcpp.cli._group import FAILED, refuse_file
-from dmpcpp.cli._limit_options import accept_option, names
+from dmpcpp.cli._limit_options import accept_option, names, taken_limits
 from dmpcpp.cli._numbers import numbers
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
@@ -124,6 +125,8 @@ def _require_no_arm(options: dict[str, Any]) -> None:
         if options[name]:
             option = "--ignore-contact" if name == "ignored" else "--" + name.replace("_", "-")
             raise InvalidArgument(f"{option}: without --arm it says nothing. State --arm too.")
+    for name in taken_limits(dict(options)):
+        raise InvalidArgument(f"{flag(name)}: without --arm it says nothing. State --arm too.")
 
 
 def _without(files: tuple[Path, ...], leave_out: tuple[int, ...]) -> tuple[Path, ...]:

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from dmpcpp.cli._flags import flag
 from dmpcpp.errors import InvalidArgument
 
-if TYPE_CHECKING:
-    from dmpcpp._core import Arm
-
-__all__ = ["accept_option", "limit_options", "limited", "names", "taken_limits"]
+__all__ = ["accept_option", "limit_options", "names", "taken_limits"]
 
 _KINDS = {"velocity": "rad/s", "acceleration": "rad/s^2", "jerk": "rad/s^3", "effort": "Nm"}
-_FIELDS = (*_KINDS, "tool_speed", "payload", "limits")
+_FIELDS = (*_KINDS, "tool_speed", "payload", "density", "limits")
 
 
 def limit_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -41,6 +38,12 @@ def limit_options(command: Callable[..., None]) -> Callable[..., None]:
             help="Mass at the tip, and its centre in the tip link's frame [m]; controller and plan know of it.",
         ),
         click.option(
+            "--density",
+            type=click.FloatRange(0, min_open=True),
+            metavar="KG/M3",
+            help="Take mass and inertia of links that state none from their collision shapes, of this density.",
+        ),
+        click.option(
             "--limits",
             type=click.Path(dir_okay=False, path_type=Path),
             metavar="FILE.yaml",
@@ -56,22 +59,12 @@ def taken_limits(options: dict[str, Any]) -> dict[str, Any]:
     """Take the limits out of a command's arguments: what `arms.with_stated` takes by keyword, for JSON."""
     given = {name: value for name in _FIELDS if (value := options.pop(name)) is not None}
     stated: dict[str, Any] = {kind: _values(kind, given[kind]) for kind in _KINDS if kind in given}
-    if "tool_speed" in given:
-        stated["tool_speed"] = given["tool_speed"]
+    stated |= {name: given[name] for name in ("tool_speed", "density") if name in given}
     if "payload" in given:
         stated["payload"] = _payload(given["payload"])
     if "limits" in given:
         stated["file"] = str(given["limits"])
     return stated
-
-
-def limited(arm: Arm, stated: dict[str, Any]) -> Arm:
-    """Return the arm with the limits that `taken_limits` took."""
-    if not stated:
-        return arm
-    from dmpcpp.robot import with_stated
-
-    return with_stated(arm, **stated)
 
 
 def accept_option(command: Callable[..., None]) -> Callable[..., None]:

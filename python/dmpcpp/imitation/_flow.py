@@ -9,7 +9,7 @@ Every stage is a value that can be looked at on its own; each step here is one c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -25,8 +25,16 @@ from dmpcpp.motion import Noise
 from dmpcpp.planning import Engine, LookedAt, Placement, clear_of_itself, require_free_postures, solve
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import Follow, Surroundings, assumptions, following, limits_summary, require_holdable
-from dmpcpp.simulation import ExecutionLog
+from dmpcpp.robot import (
+    Follow,
+    Surroundings,
+    assumptions,
+    following,
+    limits_summary,
+    require_holdable,
+    without_dynamics,
+)
+from dmpcpp.simulation import ExecutionLog, Mode
 
 __all__ = ["STAGES", "Imitation", "PlacementPolicy", "Progress", "clear_of_itself", "imitate"]
 
@@ -38,6 +46,7 @@ PlacementPolicy = Callable[..., Placement]
 anchor bound, `functools.partial(retarget.anchor_within_reach, at=(0.4, 0, 0.5), on="start")`.
 """
 
+_OF_DYNAMICS = ("torque_ratio", "inertia")
 STAGES = ("place", "learn", "solve", "execute")
 
 
@@ -135,6 +144,7 @@ def imitate(
     others: Sequence[Recording] = (),
     simulator: str | None = None,
     accept: Iterable[str] = (),
+    dynamics: str = "full",
     surroundings: Surroundings | None = None,
     follow: str | Follow | None = None,
     progress: Progress | None = None,
@@ -166,6 +176,9 @@ def imitate(
     accept : iterable of str
         Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
         by. One that is judged and fails is never accepted.
+    dynamics : {"full", "none"}
+        "none" carries the joints out by position, without masses and torques: for arms whose inertias nobody states.
+        Torque and inertia are then not judged, which this accepts.
     surroundings : Surroundings, optional
         Where the floor lies, and which pairs of links may touch.
     follow : str, optional
@@ -185,7 +198,9 @@ def imitate(
     followed = following(arm, follow)
     tell = progress or (lambda stage, done: None)
     engines = _engines(simulator or default_engine(), surroundings or Surroundings())
-    accepted = accepted_names(accept)
+    accepted, mode = accepted_names(accept), _mode(dynamics)
+    if dynamics == "none":
+        arm, accepted = without_dynamics(arm), accepted_names((*accepted, *_OF_DYNAMICS))
     require_holdable(arm)
     tell("place", 0.0)
     looked_at = require_free_postures(arm, engines[0])
@@ -209,7 +224,7 @@ def imitate(
     require_holdable(arm, joints.position)
     tell("execute", 0.0)
     path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
-    logs = _execute(arm, joints, engines, followed, lambda done: tell("execute", done))
+    logs = _execute(arm, joints, engines, followed, mode, lambda done: tell("execute", done))
     log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
         "demonstration_to_dmp": reproduction(model, demonstration),
@@ -220,6 +235,8 @@ def imitate(
     checks = (*reproduced, *path_checks, *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
+    if dynamics == "none":
+        checks = tuple(_by_kinematics(checks))
     return Imitation(
         placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second, accepted, looked_at
     )
@@ -243,7 +260,12 @@ def _engines(simulator: str, around: Surroundings) -> tuple[Engine, ...]:
 
 
 def _execute(
-    arm: Arm, joints: JointTrajectory, engines: tuple[Engine, ...], follow: Follow, tell: Callable[[float], None]
+    arm: Arm,
+    joints: JointTrajectory,
+    engines: tuple[Engine, ...],
+    follow: Follow,
+    mode: Mode,
+    tell: Callable[[float], None],
 ) -> list[ExecutionLog]:
     """Return the log of every engine; ``tell`` hears the share of all that is done."""
 
@@ -252,11 +274,27 @@ def _execute(
             arm,
             joints,
             simulator=engines[k],
+            mode=mode,
             follow=follow,
             progress=lambda done, total: tell((k + done / total) / len(engines)),
         )
 
     return [run(k) for k in range(len(engines))]
+
+
+def _mode(dynamics: str) -> Mode:
+    if dynamics not in ("full", "none"):
+        raise InvalidArgument(f"dynamics: '{dynamics}', expected full or none.")
+    return "computed_torque" if dynamics == "full" else "position"
+
+
+def _by_kinematics(checks: Iterable[Check]) -> Iterator[Check]:
+    """Leave out what only masses could show; torque and inertia are named as not judged."""
+    for check in checks:
+        if check.name in _OF_DYNAMICS:
+            yield Check.not_judged(check.name, check.unit, "the run is by kinematics alone (--dynamics none).")
+        elif check.name not in ("torque_clipped", "dynamics_mismatch", "engines_torque_rms"):
+            yield check
 
 
 def _noted(recording: Recording, found: Evidence) -> Recording:

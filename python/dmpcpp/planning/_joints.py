@@ -14,7 +14,7 @@ from dmpcpp import simulation
 from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, PoseTrajectory, duration_factor, stretched
 from dmpcpp._typing import Array
 from dmpcpp.planning._placement import Accept
-from dmpcpp.robot import POSE, Follow
+from dmpcpp.robot import POSE, Follow, stated_duration_factor
 from dmpcpp.simulation import Simulator
 
 __all__ = ["Engine", "Slowed", "Solution", "limit_factor", "slowed", "solve"]
@@ -122,8 +122,12 @@ def solve(
 
 
 def limit_factor(arm: Arm, joints: JointTrajectory) -> float:
-    """Return the smallest factor on the duration with which velocity and acceleration limits hold; may be below 1."""
-    return duration_factor(joints, arm.velocity_limit, arm.acceleration_limit)
+    """Return the smallest factor on the duration with which the limits hold that are stated; may be below 1.
+
+    Velocity and acceleration, jerk and the tool's speed.
+    """
+    by_joints = duration_factor(joints, arm.velocity_limit, arm.acceleration_limit)
+    return max(by_joints, stated_duration_factor(arm, joints.time, joints.position, joints.acceleration))
 
 
 def slowed(

@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -32,9 +32,11 @@ from dmpcpp.robot import (
     assumptions,
     dimension_checks,
     following,
+    jerk_check,
     limits_summary,
     require_holdable,
     require_within_reach,
+    tool_speed_check,
 )
 from dmpcpp.simulation import Simulator, Tolerances, inverse_kinematics_checks, path_checks
 
@@ -158,10 +160,20 @@ def plan(
     joints = solution.joints
     require_holdable(arm, joints.position)
     use = LimitUse.of(arm, joints.time, joints.position, joints.velocity, joints.acceleration)
-    checks = (*inverse_kinematics_checks(joints, Tolerances(), followed), *use.checks(), *dimension_checks(arm))
+    checks = (
+        *inverse_kinematics_checks(joints, Tolerances(), followed),
+        *use.checks(),
+        *dimension_checks(arm),
+        *_stated(arm, joints),
+    )
     if simulator is not None:
         checks = (*checks, *path_checks(arm, joints, simulator=simulator))
     return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted, looked_at, followed)
+
+
+def _stated(arm: Arm, joints: JointTrajectory) -> Iterator[Check]:
+    yield from jerk_check(arm, joints.time, joints.acceleration)
+    yield from tool_speed_check(arm, joints.time, joints.position)
 
 
 def _stand(start: ArrayLike | None, arm: Arm) -> Array | None:

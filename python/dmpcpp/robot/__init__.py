@@ -3,6 +3,7 @@
 Users import ``dmpcpp.arms`` and ``dmpcpp.urdf_check``; the rest is for the rooms above.
 """
 
+from dmpcpp.robot._body_inertia import links_by_density, with_density, without_dynamics
 from dmpcpp.robot._contact_rules import FLOOR, ContactRules, Surroundings, contact_rules, floor_height
 from dmpcpp.robot._description import RobotDescription, describe, links_beyond, links_of
 from dmpcpp.robot._dimensions import dimension_checks, dimension_doubts
@@ -17,6 +18,7 @@ from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts
 from dmpcpp.robot._reach import farthest_reach, require_within_reach
 from dmpcpp.robot._shapes import levers
 from dmpcpp.robot._stated_limits import payload_of, with_description, with_limits_file, with_payload, with_stated
+from dmpcpp.robot._stated_use import jerk_check, stated_duration_factor, tool_speed_check
 
 __all__ = [
     "FLOOR",
@@ -40,12 +42,14 @@ __all__ = [
     "floor_height",
     "following",
     "is_physical",
+    "jerk_check",
     "joint_types",
     "judged_by_limits",
     "levers",
     "limit_doubts",
     "limits_summary",
     "links_beyond",
+    "links_by_density",
     "links_of",
     "moment_change",
     "nearest_physical",
@@ -55,10 +59,14 @@ __all__ = [
     "repaired_links",
     "require_holdable",
     "require_within_reach",
+    "stated_duration_factor",
+    "tool_speed_check",
     "unjudged",
     "why",
+    "with_density",
     "with_description",
     "with_limits_file",
     "with_payload",
     "with_stated",
+    "without_dynamics",
 ]

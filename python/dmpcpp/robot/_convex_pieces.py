@@ -67,8 +67,8 @@ def mesh_points(path: Path) -> Points:
 @lru_cache(maxsize=256)
 def _points(path: str, _changed: int) -> Points:
     try:
-        return _indexed(_read(Path(path)))[0]
-    except (ValueError, IndexError):
+        return _indexed(read_mesh(Path(path)))[0]
+    except InvalidArgument:
         return np.empty((0, 3))
 
 

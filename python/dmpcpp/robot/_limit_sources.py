@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from dmpcpp._core import Arm, LimitSource
+from dmpcpp.robot._body_inertia import links_by_density
 from dmpcpp.robot._stated_limits import payload_of
 
 __all__ = ["assumptions", "limits_summary"]
@@ -43,7 +44,8 @@ def assumptions(arm: Arm) -> tuple[str, ...]:
             every = len(assumed) == arm.joint_count
             joints = "every joint" if every else ", ".join(arm.joint_names[k] for k in assumed)
             found.append(f"{kind} limit {values} {_UNITS[kind]} of {joints}")
-    return tuple(found)
+    by_density = links_by_density(arm)
+    return (*found, f"mass and inertia of {', '.join(by_density)}, from their shapes") if by_density else tuple(found)
 
 
 def _names(sources: tuple[LimitSource, ...]) -> list[str]:

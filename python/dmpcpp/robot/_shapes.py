@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._typing import Array
 from dmpcpp.robot._convex_pieces import mesh_points
 
-__all__ = ["levers", "lowest"]
+__all__ = ["levers", "lowest", "points_of", "pose_of"]
 
 
 def levers(robot: ET.Element, joints: list[str]) -> Array:
@@ -46,7 +46,7 @@ def _step(joint: ET.Element) -> float:
     limit = joint.find("limit")
     if joint.get("type") == "prismatic" and limit is not None:
         stroke = max(abs(_number(limit.get("lower"))), abs(_number(limit.get("upper"))))
-    return float(np.linalg.norm(_origin(joint)[:3, 3])) + stroke
+    return float(np.linalg.norm(pose_of(joint)[:3, 3])) + stroke
 
 
 def lowest(robot: ET.Element, links: frozenset[str]) -> float:
@@ -69,7 +69,7 @@ def _poses_at_rest(robot: ET.Element) -> dict[str, Array]:
     children = set()
     for joint in robot.findall("joint"):
         parent, child = _end(joint, "parent"), _end(joint, "child")
-        joints.setdefault(parent, []).append((child, _origin(joint)))
+        joints.setdefault(parent, []).append((child, pose_of(joint)))
         children.add(child)
     poses = {link.get("name", ""): np.eye(4) for link in robot.findall("link") if link.get("name") not in children}
     open_links = list(poses)
@@ -85,14 +85,15 @@ def _balls(link: ET.Element) -> list[tuple[Array, float]]:
     """Return points (N, 3) in the link's frame and a radius: the shape is within these balls, and touches them."""
     found = []
     for collision in link.findall("collision"):
-        geometry, frame = collision.find("geometry"), _origin(collision)
-        points, radius = _of_geometry(geometry) if geometry is not None else (np.empty((0, 3)), 0.0)
+        geometry, frame = collision.find("geometry"), pose_of(collision)
+        points, radius = points_of(geometry) if geometry is not None else (np.empty((0, 3)), 0.0)
         if len(points):
             found.append((points @ frame[:3, :3].T + frame[:3, 3], radius))
     return found
 
 
-def _of_geometry(geometry: ET.Element) -> tuple[Array, float]:
+def points_of(geometry: ET.Element) -> tuple[Array, float]:
+    """Return points (N, 3) [m] whose hull is the shape, or the centre of a ball; and the radius of a ball, else 0."""
     for shape in geometry:
         if shape.tag == "box":
             return 0.5 * np.array([*product((-1.0, 1.0), repeat=3)]) * _vector(shape.get("size"), 3), 0.0
@@ -111,7 +112,8 @@ def _rims(radius: float, length: float) -> Array:
     return np.concatenate([np.c_[ring, np.full(len(ring), z)] for z in (-0.5 * length, 0.5 * length)])
 
 
-def _origin(element: ET.Element) -> Array:
+def pose_of(element: ET.Element) -> Array:
+    """Return the pose (4, 4) that an element's <origin> states."""
     origin = element.find("origin")
     frame = np.eye(4)
     if origin is not None:

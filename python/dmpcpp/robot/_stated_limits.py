@@ -35,6 +35,7 @@ def with_stated(
     *,
     file: str | PathLike[str] | None = None,
     payload: Sequence[float] | None = None,
+    density: float | None = None,
     tool_speed: float | None = None,
     **limits: Stated | None,
 ) -> Arm:
@@ -47,6 +48,8 @@ def with_stated(
         See `with_limits_file`; what is stated beside it wins.
     payload : (1,) or (4,), optional
         Mass [kg] and where its centre lies in the frame of the arm's tip link [m]; see `with_payload`.
+    density : float, optional
+        kg/m^3, > 0, of the links that state no mass; see `with_density`.
     tool_speed : float, optional
         m/s, > 0.
     velocity, acceleration, jerk, effort : float, (n,) or mapping of joint to float, optional
@@ -70,6 +73,10 @@ def with_stated(
         if not 0.0 < tool_speed < math.inf:
             raise InvalidArgument(f"tool_speed: {tool_speed}, expected a positive number of m/s.")
         arm = arm.with_limits(tool_speed=tool_speed)
+    if density is not None:
+        from dmpcpp.robot._body_inertia import with_density
+
+        arm = with_density(arm, density)
     return arm if payload is None else with_payload(arm, payload[0], tuple(payload[1:]) or (0.0, 0.0, 0.0))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from dmpcpp._core import Arm, LimitSource, so3
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, MissingDependency, within
 from dmpcpp.robot import _robot_descriptions
+from dmpcpp.robot._body_inertia import with_density as with_density
 from dmpcpp.robot._catalogue import CATALOGUE, Listed, Place, key, lookup, nearest
 from dmpcpp.robot._makers import MAKERS as MAKERS
 from dmpcpp.robot._makers import MakerLimits
@@ -153,6 +154,7 @@ def load(
     *,
     tool: ArrayLike | None = None,
     package_path: Sequence[str] = (),
+    limits: Mapping[str, Any] | None = None,
 ) -> Arm:
     """An arm by name, or from a URDF or xacro file.
 
@@ -167,6 +169,8 @@ def load(
         URDF's <origin>, or a pose. The tip itself unless given.
     package_path : sequence of str
         Where packages of `package://` paths are: NAME=DIR, or DIR that holds them.
+    limits : mapping, optional
+        Limits and a payload in place of those of the description or maker: what `with_stated` takes by keyword.
 
     Raises
     ------
@@ -177,7 +181,7 @@ def load(
     MissingDependency
         The package that carries the description of a named arm is not installed.
     """
-    arm = _found(name_or_path, base, tip, package_path)
+    arm = with_stated(_found(name_or_path, base, tip, package_path), **(limits or {}))
     return arm if tool is None else arm.with_tool(_tool_frame(tool))
 
 

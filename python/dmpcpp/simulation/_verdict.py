@@ -12,7 +12,16 @@ import numpy as np
 from dmpcpp._core import JointTrajectory
 from dmpcpp.checks import Check, Checked, Series
 from dmpcpp.metrics import position_errors
-from dmpcpp.robot import POSE, Follow, LimitUse, dimension_checks, judged_by_limits, links_of
+from dmpcpp.robot import (
+    POSE,
+    Follow,
+    LimitUse,
+    dimension_checks,
+    jerk_check,
+    judged_by_limits,
+    links_of,
+    tool_speed_check,
+)
 from dmpcpp.simulation._simulator import kind_of
 
 if TYPE_CHECKING:
@@ -37,6 +46,7 @@ class Tolerances:
     joint_margin: float = 0.0
     velocity_ratio: float = 1.0
     acceleration_ratio: float = 1.0
+    jerk_ratio: float = 1.0
     torque_ratio: float = 1.0
     self_collision: int = 0
     floor_contact: int = 0
@@ -112,6 +122,9 @@ def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     acceleration = np.diff(log.velocity, axis=0) * log.rate  # of the measured velocity, over a step
     use = LimitUse.of(arm, log.time, log.position, log.velocity, acceleration)
     yield from use.checks(tolerances.joint_margin, tolerances.velocity_ratio, tolerances.acceleration_ratio)
+    during = slice(log.motion.start, max(log.motion.stop - 1, log.motion.start))  # without lead-in and lead-out
+    yield from jerk_check(arm, log.time[1:][during], acceleration[during], tolerances.jerk_ratio)
+    yield from tool_speed_check(arm, log.time, log.position)
     torque = Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, use.names)
     limit = tolerances.torque_ratio
     yield judged_by_limits(torque, use.doubts_of("effort"), lambda s: s.at_most("torque_ratio", limit, "1"))

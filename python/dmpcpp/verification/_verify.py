@@ -34,6 +34,7 @@ _NOT_RECORDED = (
     "object_contact",
     "inertia",
     "kinematics_mismatch",
+    "jerk_ratio",  # an encoder's noise is not a motion's jerk
     "dynamics_mismatch",
 )
 _NO_TORQUE = "the log holds no torques: they are not judged"

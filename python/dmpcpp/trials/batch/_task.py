@@ -31,7 +31,7 @@ class Task:
     folder : str
         Where its results go.
     arm : str
-        Name or URDF, as `arms.load` takes it; `base`, `tip`, `tool` and `package_path` with it.
+        Name or URDF, as `arms.load` takes it; `base`, `tip`, `tool`, `package_path` and `limits` with it.
     reading, preparation, options : mapping
         What `recordings.load`, `motion.Preparation` and `imitation.imitate` take by keyword.
     """
@@ -43,6 +43,7 @@ class Task:
     tip: str | None = None
     tool: Sequence[float] | None = None
     package_path: Sequence[str] = ()
+    limits: Mapping[str, Any] = field(default_factory=dict)
     reading: Mapping[str, Any] = field(default_factory=dict)
     preparation: Mapping[str, Any] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -170,7 +171,14 @@ def _imitated(task: Task) -> dict[str, Any]:
     recording = motion.prepare(recording, motion.Preparation(**task.preparation))
     run = imitation.imitate(
         recording,
-        arms.load(task.arm, task.base, task.tip, tool=task.tool, package_path=task.package_path),
+        arms.load(
+            task.arm,
+            task.base,
+            task.tip,
+            tool=task.tool,
+            package_path=task.package_path,
+            limits=task.limits,
+        ),
         surroundings=around,
         **options,
     )
