@@ -14,10 +14,11 @@ from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nea
 from dmpcpp.robot._limit_sources import assumptions, limits_summary
 from dmpcpp.robot._limit_use import LimitUse, judged_by_limits
 from dmpcpp.robot._packages import find_mesh
+from dmpcpp.robot._payload import payload_of, with_description, with_payload
 from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why
 from dmpcpp.robot._reach import farthest_reach, require_within_reach
 from dmpcpp.robot._shapes import levers
-from dmpcpp.robot._stated_limits import payload_of, with_description, with_limits_file, with_payload, with_stated
+from dmpcpp.robot._stated_limits import with_limits_file, with_stated
 from dmpcpp.robot._stated_use import jerk_check, stated_duration_factor, tool_speed_check
 
 __all__ = [

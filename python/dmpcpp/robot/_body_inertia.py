@@ -15,8 +15,8 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot._convex_pieces import convex_pieces
 from dmpcpp.robot._description import find_mesh, links_beyond
 from dmpcpp.robot._engine_urdf import write_inertia
+from dmpcpp.robot._payload import with_description
 from dmpcpp.robot._shapes import points_of, pose_of
-from dmpcpp.robot._stated_limits import with_description
 
 __all__ = ["DENSITY_NOTE", "links_by_density", "with_density", "without_dynamics"]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from dmpcpp._core import Arm, LimitSource
 from dmpcpp.robot._body_inertia import links_by_density
-from dmpcpp.robot._stated_limits import payload_of
+from dmpcpp.robot._payload import payload_of
 
 __all__ = ["assumptions", "limits_summary"]
 

@@ -22,8 +22,8 @@ from dmpcpp.robot._catalogue import CATALOGUE, Listed, Place, key, lookup, neare
 from dmpcpp.robot._makers import MAKERS as MAKERS
 from dmpcpp.robot._makers import MakerLimits
 from dmpcpp.robot._packages import Packages, with_packages
+from dmpcpp.robot._payload import with_payload as with_payload
 from dmpcpp.robot._reader import expanded, read_description
-from dmpcpp.robot._stated_limits import with_payload as with_payload
 from dmpcpp.robot._stated_limits import with_stated as with_stated
 
 DEFAULT_ACCELERATION = 10.0
