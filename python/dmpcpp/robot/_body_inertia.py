@@ -13,8 +13,9 @@ from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot._convex_pieces import convex_pieces
-from dmpcpp.robot._description import find_mesh, links_beyond
+from dmpcpp.robot._description import links_beyond
 from dmpcpp.robot._engine_urdf import write_inertia
+from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._payload import with_description
 from dmpcpp.robot._shapes import points_of, pose_of
 

@@ -13,6 +13,7 @@ from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 
 LEAD_ACCELERATION = 5.0  # rad/s^2 (m/s^2): gentle beside what arms can do (10 to 20)
+_LEAD_SHARE = 0.9  # of the acceleration limits that lead-in and lead-out use at most
 
 Interpolation = Literal["quintic", "cubic"]
 INTERPOLATIONS: tuple[str, ...] = get_args(Interpolation)
@@ -115,7 +116,7 @@ def _states(joints: JointTrajectory, time: Array, lead_in: float, lead_out: floa
 def _ramp_duration(arm: Arm, position: Array, velocity: Array) -> float:
     """How long to take from ``velocity`` to rest: gently, but short of the joint limits if that can be."""
     speed = np.abs(velocity)
-    gentle = float(np.max(1.5 * speed / LEAD_ACCELERATION))
+    gentle = float(np.max(1.5 * speed / np.minimum(LEAD_ACCELERATION, _LEAD_SHARE * arm.acceleration_limit)))
     room = np.where(velocity > 0.0, arm.upper - position, position - arm.lower)
     moving = speed > 1e-9
     nearest = float(np.min(2.0 * room[moving] / speed[moving], initial=np.inf))

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from dmpcpp.simulation._execution_log import ExecutionLog
 
 
+_JOINT = 3  # steps on either side of a motion whose differences reach into lead-in and lead-out
+
+
 @dataclass(frozen=True)
 class Tolerances:
     """Limits of the checks: m, rad, ratios to the arm's limits, counts.
@@ -122,7 +125,7 @@ def _limits(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
     acceleration = np.diff(log.velocity, axis=0) * log.rate  # of the measured velocity, over a step
     use = LimitUse.of(arm, log.time, log.position, log.velocity, acceleration)
     yield from use.checks(tolerances.joint_margin, tolerances.velocity_ratio, tolerances.acceleration_ratio)
-    during = slice(log.motion.start, max(log.motion.stop - 1, log.motion.start))  # without lead-in and lead-out
+    during = slice(log.motion.start + _JOINT, max(log.motion.stop - 1 - _JOINT, 0))  # without lead-in and lead-out
     yield from jerk_check(arm, log.time[1:][during], acceleration[during], tolerances.jerk_ratio)
     yield from tool_speed_check(arm, log.time, log.position)
     torque = Series(log.time, np.abs(log.torque_demand) / arm.effort_limit, use.names)
