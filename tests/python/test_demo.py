@@ -35,7 +35,7 @@ def hand_path(count: int = 200, scale: float = 1.0) -> tuple[np.ndarray, np.ndar
     return time, np.c_[position, 0 * turn, np.sin(turn / 2), 0 * turn, np.cos(turn / 2)]
 
 
-@pytest.mark.parametrize("arm", ["panda", "iiwa"])
+@pytest.mark.parametrize("arm", ["panda", "iiwa", "xarm6"])
 def test_demo_is_verified(arm, tmp_path):
     done = run("demo", "--arm", arm, "--out", "out", "--no-report", cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -258,7 +258,8 @@ def _print(run: Imitation, out: Path) -> None:
     )
     console.print(_errors_table(run, Table))
     console.print(checks_table(run.checks))
-    print_verdict(console, run, _how(run), assumed=assumptions(run.log.arm), advice=_advice(run))
+    assumed, changed = assumptions(run.log.arm), run.changed
+    print_verdict(console, run, _how(run), assumed=assumed, changed=changed, advice=_advice(run))
     caution = "" if run.ok else "; its joints.csv is not for a robot"
     console.print(f"written to {out}/{caution}", soft_wrap=True, markup=False)
 

@@ -19,10 +19,11 @@ def print_verdict(
     how: str,
     *,
     assumed: Iterable[str] = (),
+    changed: Iterable[str] = (),
     advice: str = "",
     words: tuple[str, str] = ("verified", "not verified"),
 ) -> None:
-    """Print the verdict, a line for each check that was not judged, and the limits that were assumed.
+    """Print the verdict, a line for each check that was not judged, what was assumed and what was changed.
 
     `how` says by what was judged; `words` are those of a good and a bad verdict.
     """
@@ -32,8 +33,9 @@ def print_verdict(
     console.print(" ".join(filter(None, (reason(result), advice, how))), soft_wrap=True, markup=False)
     for check in result.not_judged:
         console.print(_not_judged(check, result), style="yellow", soft_wrap=True, markup=False)
-    for what in assumed:
-        console.print(f"assumed: {what}", style="yellow", soft_wrap=True, markup=False)
+    for kind, lines in (("assumed", assumed), ("changed", changed)):
+        for line in lines:
+            console.print(f"{kind}: {line}", style="yellow", soft_wrap=True, markup=False)
 
 
 def reason(result: Checked) -> str:

@@ -99,6 +99,12 @@ class Imitation(Checked):
         """Standard deviation of the noise found along and about one axis; 0 where there is none."""
         return self.evidence.noise
 
+    @property
+    def changed(self) -> tuple[str, ...]:
+        """What of the arm's description was replaced: inertias that no body can have, with the size of the change."""
+        found = tuple(map(str, self.log.inertia_repairs)) if self["inertia"].ok else ()
+        return (f"inertia of {', '.join(found)} by the nearest that a body can have",) if found else ()
+
     def summary(self) -> dict[str, Any]:
         """Return what `summary.json` holds; m and rad."""
         return {
@@ -129,6 +135,7 @@ class Imitation(Checked):
             "caveat": self.log.caveat,
             "limits": limits_summary(self.log.arm),
             "assumed": list(assumptions(self.log.arm)),
+            "changed": list(self.changed),
         }
 
 

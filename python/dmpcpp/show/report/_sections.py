@@ -86,6 +86,7 @@ def _caveats(summary: dict[str, Any]) -> str:
     unjudged = [check for check in summary["checks"] if result_of(check) == "not judged"]
     lines = [f"Not judged: {check['name']}: {check['detail']}" for check in unjudged]
     lines += [f"Assumed: {what}." for what in summary.get("assumed", ())]
+    lines += [f"Changed: {what}." for what in summary.get("changed", ())]
     return f"<ul>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</ul>" if lines else ""
 
 
