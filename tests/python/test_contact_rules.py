@@ -169,3 +169,15 @@ def test_the_command_line_states_floor_and_pairs(tmp_path: Path) -> None:
         done = run("demo", "--arm", "own.urdf", *option, cwd=tmp_path)
         assert done.returncode == 2
         assert word in done.stderr
+
+
+def test_what_touches_at_rest_is_named() -> None:
+    arm = Arm.from_urdf(
+        robot(chain(6), link("lid", CUBE) + joint("d", "fixed", "base", "lid", xyz="0 0 0.6")), tip="l6"
+    )
+    looked_at = planning.require_free_postures(arm, simulation.Bullet)
+    assert ("l3", "lid") in looked_at.at_rest or ("l4", "lid") in looked_at.at_rest
+    assert "touching with every joint at 0" in looked_at.describe()
+    assert (
+        "touching" not in planning.require_free_postures(Arm.from_urdf(robot(chain(6))), simulation.Bullet).describe()
+    )

@@ -20,6 +20,7 @@ __all__ = ["ClearOfItself", "LookedAt", "clear_of_itself", "require_free_posture
 
 _POSTURES = 40  # random ones that are looked at for pairs that always touch
 _NEARLY_ALL = 0.95
+_SHOWN = 6  # pairs that are named in a line
 
 
 class ClearOfItself:
@@ -70,18 +71,28 @@ class ClearOfItself:
 class LookedAt:
     """What is looked at for contacts: all pairs but those that the rules leave out, and a floor [m] unless None.
 
-    `unjudged` are links that the arm does not move and whose shapes cannot be read.
+    `unjudged` are links that the arm does not move and whose shapes cannot be read; `at_rest` are the pairs that touch
+    with every joint at 0.
     """
 
     rules: ContactRules
     floor: float | None
     unjudged: tuple[str, ...] = ()
+    at_rest: tuple[tuple[str, str], ...] = ()
 
     def describe(self) -> str:
         """Return one line for reports."""
         floor = "no floor" if self.floor is None else f"floor at z = {round(self.floor, 3) + 0.0:g} m"
         unread = f"; not judged: contacts of {', '.join(self.unjudged)}, no mesh" if self.unjudged else ""
-        return f"{self.rules.describe()}; {floor}{unread}"
+        return f"{self.rules.describe()}; {floor}{unread}{self._touching()}"
+
+    def _touching(self) -> str:
+        """Name what touches at rest: an overlap by construction, if it is one, has to be stated."""
+        if not self.at_rest:
+            return ""
+        pairs = "; ".join(f"{a}, {b}" for a, b in self.at_rest[:_SHOWN])
+        more = f" and {len(self.at_rest) - _SHOWN} more" if len(self.at_rest) > _SHOWN else ""
+        return f"; touching with every joint at 0 (if they are built so, ignore them): {pairs}{more}"
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -113,7 +124,9 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
     with engine(arm, 1e-3) as world:
         for q in _random_joints(arm, np.random.default_rng(seed), _POSTURES):
             found.update({(contact.link, contact.other) for contact in world.contacts_at(q)})
-        looked_at = LookedAt(world.contact_rules, world.floor, world.unjudged_links)
+        rest = world.contacts_at(np.clip(np.zeros(arm.joint_count), arm.lower, arm.upper))
+        at_rest = tuple((contact.link, contact.other) for contact in rest)
+        looked_at = LookedAt(world.contact_rules, world.floor, world.unjudged_links, at_rest)
     always = [(pair, n) for pair, n in found.most_common() if n >= _NEARLY_ALL * _POSTURES]
     if not always:
         return looked_at
