@@ -196,7 +196,7 @@ def test_a_reflection_is_refused_with_the_index(tmp_path):
         (["imitate", "nowhere.csv"], "nowhere.csv"),
         (["demo", "--clip", "tango"], "dance_b"),
         (["demo", "--body", "tail"], "right_hand"),
-        (["demo", "--arm", "ur99"], "panda"),
+        (["demo", "--arm", "ur99"], "'ur99' is not known. Nearest are "),
         (["demo", "--arm", "missing.urdf"], "missing.urdf"),
         (["demo", "--basis-count", "0"], "basis-count"),
         (["demo", "--simulator", "gazebo"], "'bullet', 'mujoco', 'both'"),

@@ -34,7 +34,7 @@ def taken(*arguments, seed=3):
 
 
 def test_without_an_anchor_a_placement_is_searched_in_a_range_of_scale():
-    assert taken() == {"place": True, "scale": (0.25, 1.0)}
+    assert taken() == {"place": True, "scale": None}
     assert taken("--scale", "0.5") == {"place": True, "scale": (0.5, 0.5)}
     assert taken("--scale", "0.4:0.8") == {"place": True, "scale": (0.4, 0.8)}
     assert taken("--no-place")["place"] is False
@@ -194,7 +194,7 @@ def test_a_universal_robot_is_sent_a_script(tmp_path):
     pytest.importorskip("pybullet_data")
     robot = ("--arm", ur5(), "--base", "base_link", "--tip", "tool0")
     out = tmp_path / "out"
-    done = run("imitate", hand(tmp_path), *robot, "--export", "urscript", "--out", out)
+    done = run("imitate", hand(tmp_path), *robot, "--accept", "inertia", "--export", "urscript", "--out", out)
     assert done.exit_code == 0, done.output
     assert "for the robot: joints.script" in done.output
     period, joints = export.read_urscript(out / "joints.script")

@@ -203,7 +203,7 @@ def test_the_same_seed_finds_the_same_placement(arm):
 def test_a_motion_too_large_for_the_arm_is_refused_with_the_share_it_carries(arm):
     with pytest.raises(
         InvalidArgument,
-        match=r"carries \d+ % of it and first misses the pose at frame \d+ \(.* s\), by .* mm.*smaller scale",
+        match=r"carries [\d.]+ % of it and first misses the pose at frame \d+ \(.* s\), by .* mm.*: .*smaller scale",
     ):
         place(recordings.clip("dance_b"), arm, scale=(3.0, 4.0), candidates=200)
 
