@@ -19,12 +19,12 @@ _ANGLE = math.radians(10.0)
 
 
 def takes_apart(
-    demonstrations: Sequence[PoseDemonstration], names: Sequence[str], options: DmpOptions
+    demonstrations: Sequence[PoseDemonstration], sources: Sequence[str], numbers: Sequence[str], options: DmpOptions
 ) -> tuple[Check, ...]:
     """Return a failed check for each take that the model of the others misses by more than 3 to 5 times the median of
     such misses (RMS), and by more than 5 % of its extent or 10 deg.
 
-    Each model runs from the take's own start to its goal within its duration.
+    Each model runs from the take's own start to its goal within its duration. `numbers` are what the takes are called.
     """
     if len(demonstrations) < _FEWEST:
         return ()
@@ -40,13 +40,13 @@ def takes_apart(
     for k, (miss, one) in enumerate(zip(misses, demonstrations, strict=True)):
         position = max(times * usual_position, _SHARE_OF_EXTENT * _extent(one))
         angle = max(times * usual_angle, _ANGLE)
-        detail = f"take {k + 1} ({names[k]}) against the model of the others; --leave-out {k + 1} learns without it"
+        detail = f"take {numbers[k]} ({sources[k]}) against the model of the others"
         for what, found, limit, unit in (
             ("position", miss.position_rmse, position, "m"),
             ("angle", miss.angle_rmse, angle, "rad"),
         ):
             if found > limit:
-                checks.append(Check(f"take_{k + 1}_{what}_rmse", False, found, limit, unit, detail=detail))
+                checks.append(Check(f"take_{numbers[k]}_{what}_rmse", False, found, limit, unit, detail=detail))
     return tuple(checks)
 
 

@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from typing import Any
+
 from dmpcpp._core import FileError, IkResult, InvalidArgument, PathReport
 
 __all__ = ["FileError", "IkError", "InvalidArgument", "MissingDependency", "NotStated", "within"]
@@ -36,21 +39,26 @@ class MissingDependency(ImportError):
 def within(place: str, error: InvalidArgument) -> InvalidArgument:
     """Return the error with a place (a file's name) before its message; it keeps its type and its argument."""
     if isinstance(error, NotStated):
-        return NotStated(error.names, f"{place}: {error}")
+        return NotStated(error.names, f"{place}: {error}", error.choices)
     found = type(error)(f"{place}: {error}")
     found.argument = error.argument
     return found
 
 
 class NotStated(InvalidArgument):
-    """A file lacks a fact that the caller must supply; `names` lists the parameters that supply it."""
+    """A file lacks a fact that the caller must supply; `names` lists the parameters that supply it.
 
-    def __init__(self, names: str | tuple[str, ...], message: str) -> None:
-        """Take the parameter or parameters, one of which must be given, and the message."""
+    Where the question is which take of a file is meant, `choices` are the answers: {"episode": 2} or
+    {"where": {"take": "2"}} for each.
+    """
+
+    def __init__(self, names: str | tuple[str, ...], message: str, choices: Sequence[Mapping[str, Any]] = ()) -> None:
+        """Take the parameter or parameters, one of which must be given, the message and possible answers."""
         super().__init__(message)
+        self.choices = tuple(choices)
         self.names = (names,) if isinstance(names, str) else names
         self.argument = self.names[0]
 
-    def __reduce__(self) -> tuple[type[NotStated], tuple[tuple[str, ...], str]]:
-        """Go through a pickle with the names."""
-        return type(self), (self.names, str(self))
+    def __reduce__(self) -> tuple[type[NotStated], tuple[Any, ...]]:
+        """Go through a pickle with the names and answers."""
+        return type(self), (self.names, str(self), self.choices)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -40,10 +41,14 @@ def learn(
     basis_count : int, optional
         The number of kernels instead.
     noise : Noise, optional
-        Has no effect: noise is found in the demonstration itself.
+        Has no effect, which a warning says: noise is found in the demonstration itself. Goes in 0.3.
     smooth : bool
         Whether noise may be taken out.
     """
+    if noise is not None:
+        warnings.warn(
+            "learn: noise has no effect, it is found in the demonstration itself.", DeprecationWarning, stacklevel=2
+        )
     return PoseDmp.fit(
         demonstration, basis_count=basis_count or 0, derivatives="automatic" if smooth else "interpolate"
     )
@@ -212,7 +217,13 @@ class Lesson(Checked):
         }
 
 
-def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, smooth: bool = True) -> Lesson:
+def teach(
+    recordings: Sequence[Recording],
+    *,
+    basis_count: int | None = None,
+    smooth: bool = True,
+    numbers: Sequence[str] | None = None,
+) -> Lesson:
     """Learn one recording, or several of one motion together.
 
     Parameters
@@ -223,6 +234,8 @@ def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, sm
         Kernels; by default as many as each recording alone needs, the most of them.
     smooth : bool
         Whether noise that is found may be smoothed out.
+    numbers : sequence of str, optional
+        What checks call each recording: "2", or "2.3" of the third part of a file; from "1" by default.
 
     Raises
     ------
@@ -241,6 +254,7 @@ def teach(recordings: Sequence[Recording], *, basis_count: int | None = None, sm
         model = PoseDmp.fit(
             list(demonstrations), basis_count=basis_count or 0, derivatives="automatic" if smooth else "interpolate"
         )
-        checks = takes_apart(demonstrations, [recording.source for recording in kept], model.options)
+        called = numbers or [str(k) for k in range(1, len(kept) + 1)]
+        checks = takes_apart(demonstrations, [recording.source for recording in kept], called, model.options)
     report = assess(model, list(demonstrations))
     return Lesson(kept, demonstrations, model, report, tuple(each.noise for each in found), checks, found)

@@ -92,7 +92,9 @@ def test_a_take_that_does_not_belong_to_the_others_is_named():
     other = takes[2].with_("", position=takes[2].position + away)
     checks = learning.teach([*takes[:2], other, *takes[3:]]).checks
     assert {check.name for check in checks} == {"take_3_position_rmse"}
-    assert "--leave-out 3" in checks[0].detail and "take2" in checks[0].detail
+    assert checks[0].detail == "take 3 (take2) against the model of the others"
+    (named,) = learning.teach([*takes[:2], other, *takes[3:]], numbers=["1", "2", "4.1", "5", "6"]).checks
+    assert named.name == "take_4.1_position_rmse" and "take 4.1 (take2)" in named.detail
 
 
 def test_by_default_gaps_and_outliers_are_filled_and_nothing_else():

@@ -124,3 +124,56 @@ def test_positions_of_a_table_are_markers(tmp_path):
     expected = to_body @ np.einsum("ji,tjk->tik", turn[0], turn) @ to_body.T
     np.testing.assert_allclose(relative, expected, atol=1e-9)
     assert recordings.markers(path, rate=50.0).names == ("WRIST", "THUMB", "INDEX", "PINKY")
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "where", "kept"),
+    [
+        ("hand_visible", ["true", "false"], "hand_visible=true", lambda k: k % 2 == 0),
+        ("valid", ["1", "0"], "valid=1", lambda k: k % 2 == 0),
+        ("occluded", ["1", "0"], "occluded=0", lambda k: k % 2 == 1),
+        ("tracking_confidence", [f"{k / 20}" for k in range(21)], "tracking_confidence>=0.5", lambda k: k % 21 >= 10),
+        ("confidence", [str(5 * k) for k in range(21)], "confidence>=50", lambda k: k % 21 >= 10),
+    ],
+)
+def test_a_column_that_says_which_samples_count_is_offered_by_name(tmp_path, name, values, where, kept):
+    path = tmp_path / "a.csv"
+    rows = [f"{0.02 * k},{0.3 + 0.002 * k},0.1,0.9,0,0,0,1,{values[k % len(values)]}" for k in range(100)]
+    path.write_text("\n".join([f"time,x,y,z,qx,qy,qz,qw,{name}", *rows]))
+    found = recordings.load(path)
+    (warned,) = [note for note in found.history if note.about == "where"]
+    count = sum(not kept(k) for k in range(100))
+    assert warned.kind == "warning" and f"{name!r} says of {count} of 100 rows that they do not count" in warned
+    assert f"where='{where}' leaves them out" in warned
+    chosen = recordings.load(path, where=where)
+    np.testing.assert_allclose(chosen.position[:, 0], [0.3 + 0.002 * k for k in range(100) if kept(k)])
+    assert not [note for note in chosen.history if note.about == "where"]
+    done = CliRunner().invoke(main, ["inspect", str(path)])
+    assert f"--where {where}" in done.output.replace("\n", " ")
+
+
+def test_states_of_tracking_are_listed_and_flags_of_another_body_are_not(tmp_path):
+    path = tmp_path / "a.csv"
+    names = ",".join(f"{side}_{axis}" for side in ("left", "right") for axis in ("x", "y", "z", "qx", "qy", "qz", "qw"))
+    pose = "0.1,0.9,0,0,0,1"
+    rows = [
+        f"{0.02 * k},{k},{pose},{k},{pose},{k % 2},{k % 3}".replace(f"{k},0.1", f"{0.01 * k},0.1") for k in range(60)
+    ]
+    path.write_text("\n".join([f"time,{names},left_visible,right_tracking_state", *rows]))
+    (left,) = [note for note in recordings.load(path, "left").history if note.about == "where"]
+    assert "'left_visible' says of 30 of 60 rows" in left
+    (right,) = [note for note in recordings.load(path, "right").history if note.about == "where"]
+    assert "'right_tracking_state' holds 0, 1, 2, and all rows are used" in right
+
+
+def test_rows_are_compared_with_numbers(tmp_path):
+    path = tmp_path / "a.csv"
+    rows = [f"{0.02 * k},{0.01 * k},0.1,0.9,0,0,0,1,{k}" for k in range(60)]
+    path.write_text("\n".join(["time,x,y,z,qx,qy,qz,qw,level", *rows]))
+    for where, kept in (("level<20", range(20)), ("level>40", range(41, 60)), ("level<=20", range(21))):
+        chosen = recordings.load(path, where=where)
+        np.testing.assert_allclose(chosen.position[:, 0], [0.01 * k for k in kept])
+    assert len(recordings.load(path, where="level!=30")) == 59
+    assert len(recordings.load(path, where={"level": ">=30"})) == 30
+    with pytest.raises(InvalidArgument, match="no row with level>99"):
+        recordings.load(path, where="level>99")

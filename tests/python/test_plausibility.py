@@ -41,6 +41,33 @@ def test_a_little_motion_or_a_little_turn_is_enough(extent, turn):
     assert motion.implausible(moving(extent, turn)) == ""
 
 
+def at_rest(noise, seed=0, duration=20.0, rate=100.0):
+    """A hand at rest as a tracker sees it: white noise [m] in the positions, a tenth of a degree a mm in the turns."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(int(rate * duration)) / rate
+    position = [0.4, 0.1, 0.9] + noise * rng.standard_normal((len(time), 3))
+    turn = Rotation.from_rotvec(np.radians(100.0 * noise) * rng.standard_normal((len(time), 3)))
+    return Recording(time, position, turn.as_matrix(), body="hand")
+
+
+@pytest.mark.parametrize("noise", [3e-4, 1e-3, 3e-3])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_noise_is_no_motion(noise, seed):
+    assert "stands still: it stays within" in motion.implausible(at_rest(noise, seed))
+
+
+@pytest.mark.parametrize("noise", [3e-4, 1e-3, 3e-3])
+def test_a_short_or_small_motion_shows_among_noise(noise):
+    rest = at_rest(noise)
+    push = 20 * noise * np.exp(-(((rest.time - 10.0) / 0.2) ** 2))
+    pushed = rest.with_("", position=rest.position + np.outer(push, [1, 0, 0]))
+    assert motion.implausible(pushed) == ""
+    swaying = rest.with_("", position=rest.position + np.outer(7 * noise * np.sin(rest.time), [0, 1, 0]))
+    assert motion.implausible(swaying) == ""
+    turned = Rotation.from_rotvec(np.outer(np.radians(20.0) * np.sin(rest.time), [0, 0, 1])).as_matrix()
+    assert motion.implausible(rest.with_("", rotation=turned @ rest.rotation)) == ""
+
+
 def test_who_turns_on_the_spot_is_taken_with_a_warning():
     history = motion.plausible(moving(0.4e-3, 1.0)).history
     assert history[-1] == "WARNING: moves over 0.4 mm only and turns by 57 deg: is the unit of its lengths right?"

@@ -133,4 +133,12 @@ def test_a_channel_stays_with_the_samples_it_belongs_to(tmp_path):
     )
     found = recordings.load(path)
     np.testing.assert_array_equal(found.channels["gripper"], grip)
-    assert motion.crop(found, 1.0, 2.0).channels == {}
+    cropped = motion.crop(found, 1.0, 2.0)
+    kept = (time >= 1.0 - 1e-9) & (time <= 2.0 + 1e-9)
+    np.testing.assert_array_equal(cropped.channels["gripper"], grip[kept])
+    part = motion.segments(found)[0]
+    begin = int(np.argmin(np.abs(position - part.position[0]).sum(axis=1)))
+    np.testing.assert_array_equal(part.channels["gripper"], grip[begin : begin + len(part)])
+    finer = motion.resample(found, 300.0)
+    np.testing.assert_allclose(finer.channels["gripper"], np.interp(finer.time, time, grip), atol=1e-12)
+    assert found.with_("later", time=2.0 * found.time).channels == {}

@@ -145,8 +145,8 @@ def imitate(file: Path, **options: Any) -> None:
         placing["place"] = partial(placing["place"], follow=how["follow"])
     taken = ("out", "seed", "basis_count", "simulator", "formats", "accept", "dynamics", "no_report", "as_json")
     run = {name: options.pop(name) for name in taken}
-    recording = recordings.load(file, **taken_recording(options))
-    recording, *others = motion.prepare_all(recording, preparation)
+    loaded = recordings.load_all(file, **taken_recording(options))
+    recording, *others = [part for each in loaded for part in motion.prepare_all(each, preparation)]
     _carry_out(recording, taken_arm(options), smooth=smooth, others=others, **placing, **how, **run)
 
 

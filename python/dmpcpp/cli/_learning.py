@@ -40,7 +40,9 @@ from dmpcpp.errors import InvalidArgument
 if TYPE_CHECKING:
     from dmpcpp._typing import Array
     from dmpcpp.learning import Lesson
+    from dmpcpp.motion import Preparation
     from dmpcpp.planning import JointPlan
+    from dmpcpp.recordings import Recording
 
 
 @click.command()
@@ -60,9 +62,8 @@ if TYPE_CHECKING:
 @click.option(
     "--leave-out",
     multiple=True,
-    type=click.IntRange(1),
-    metavar="N",
-    help="Learn without the N-th FILE, from 1.",
+    metavar="N[.K]",
+    help="Learn without the N-th FILE, from 1, or without its K-th take.",
 )
 @click.option(
     "--out",
@@ -77,27 +78,27 @@ def fit(
     scale: str | None,
     seed: int,
     basis_count: int | None,
-    leave_out: tuple[int, ...],
+    leave_out: tuple[str, ...],
     out: Path,
     as_json: bool,
     **options: Any,
 ) -> None:
     """Learn the motion in FILE, or in several FILEs of one motion together, and write a model file.
 
+    A FILE with several takes gives all of them with --episode all, --where COLUMN=all or --repetition all. Where takes
+    do not belong together no model is written, and one of before is renamed to NAME.old.
+
     Without --arm the model is one of the recorded poses, z up; with it, of poses of the arm's tip in its base frame,
     ready for `dmpcpp plan`.
 
     Example: dmpcpp fit reach.bvh --body RightHand --unit cm --arm panda --out reach.json
     """
-    from dmpcpp import motion, planning, recordings, save, simulation
+    from dmpcpp import planning, save, simulation
     from dmpcpp.learning import teach
 
     refuse_file(out.parent)
     preparation, smooth = taken_preparation(options)
-    stated = taken_recording(options)
-    files = _without(files, leave_out)
-    loaded = [recordings.load(file, **stated) for file in files]
-    found = [part for recording in loaded for part in motion.prepare_all(recording, preparation)]
+    numbers, found = _takes(files, taken_recording(options), preparation, leave_out)
     if options["arm"] is not None:
         around = taken_surroundings(options)
         engine = partial(simulation.default_simulator, floor=around.floor, ignored=around.ignored)
@@ -106,12 +107,15 @@ def fit(
         )
     else:
         _require_no_arm({**options, "scale": scale})
-    lesson = teach(found, basis_count=basis_count, smooth=smooth)
-    written = lesson.ok or len(files) == 1  # takes that do not belong together make no model
+    lesson = teach(found, basis_count=basis_count, smooth=smooth, numbers=numbers)
+    written = lesson.ok or len(found) == 1  # takes that do not belong together make no model
+    config = out.with_name(f"{out.stem}.config.toml")
     if written:
         out.parent.mkdir(parents=True, exist_ok=True)
         save(lesson.model, out)
-        save_config(out.with_name(f"{out.stem}.config.toml"))
+        save_config(config)
+    else:
+        _set_aside(out, config)
     if as_json:
         click.echo(json.dumps(lesson.summary(), indent=2, allow_nan=False))
     else:
@@ -129,13 +133,43 @@ def _require_no_arm(options: dict[str, Any]) -> None:
         raise InvalidArgument(f"{flag(name)}: without --arm it says nothing. State --arm too.")
 
 
-def _without(files: tuple[Path, ...], leave_out: tuple[int, ...]) -> tuple[Path, ...]:
-    if leave_out and max(leave_out) > len(files):
-        raise InvalidArgument(f"--leave-out: {max(leave_out)}, expected 1 to {len(files)}.")
-    kept = tuple(file for k, file in enumerate(files, 1) if k not in leave_out)
-    if not kept:
-        raise InvalidArgument("--leave-out: leaves no file to learn from.")
-    return kept
+def _takes(
+    files: tuple[Path, ...], stated: dict[str, Any], preparation: Preparation, leave_out: tuple[str, ...]
+) -> tuple[list[str], list[Recording]]:
+    """Return the takes of all files with their numbers: "2" of the second file, "2.3" of its third take."""
+    from dmpcpp import motion, recordings
+
+    takes: dict[str, Recording] = {}
+    known: list[str] = []
+    for k, file in enumerate(files, 1):
+        known.append(str(k))
+        if str(k) in leave_out:  # it may be one that cannot be read
+            continue
+        loaded = recordings.load_all(file, **stated)
+        parts = [part for recording in loaded for part in motion.prepare_all(recording, preparation)]
+        numbers = [f"{k}.{j}" for j in range(1, len(parts) + 1)] if len(parts) > 1 else [str(k)]
+        known += numbers if len(parts) > 1 else []
+        takes |= {number: part for number, part in zip(numbers, parts, strict=True) if number not in leave_out}
+    if unknown := [number for number in leave_out if number not in known]:
+        raise InvalidArgument(f"--leave-out: {unknown[0]}, expected one of {', '.join(known)}.")
+    if not takes:
+        raise InvalidArgument("--leave-out: leaves nothing to learn from.")
+    return list(takes), list(takes.values())
+
+
+def _set_aside(*paths: Path) -> None:
+    """Rename the files of an earlier run, which nobody shall take for those of this one."""
+    for path in paths:
+        if path.exists():
+            older = path.with_name(f"{path.name}.old")
+            path.replace(older)
+            click.echo(f"dmpcpp: {path} is of an earlier run; renamed to {older.name}.", err=True)
+
+
+def _to_leave_out(lesson: Lesson) -> str:
+    """Return the options that learn without the takes that do not belong to the others."""
+    numbers = dict.fromkeys(check.name.removeprefix("take_").split("_")[0] for check in lesson.checks if not check.ok)
+    return " ".join(f"--leave-out {number}" for number in numbers)
 
 
 def _print_lesson(lesson: Lesson, out: Path | None) -> None:
@@ -160,7 +194,11 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
         console.print(checks_table(lesson.checks))
     console.print(
         f"{lesson.model.options.basis_count} kernels, {lesson.model.duration:.2f} s, {way(lesson.model)} m; "
-        + (f"written to {out}" if out else "no model written: the takes do not belong together"),
+        + (
+            f"written to {out}"
+            if out
+            else f"no model written: the takes do not belong together. To learn without: {_to_leave_out(lesson)}"
+        ),
         soft_wrap=True,
         markup=False,
     )

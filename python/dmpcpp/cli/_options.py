@@ -10,6 +10,7 @@ import click
 
 from dmpcpp._engines import default_engine
 from dmpcpp.cli._flags import flag
+from dmpcpp.cli._recording_options import NumberOrAll
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -20,18 +21,6 @@ if TYPE_CHECKING:
 # Of --simulator.
 DEFAULT_ENGINE = default_engine()
 SHOWN_ENGINE = "bullet; mujoco without PyBullet"
-
-
-class _Repetition(click.ParamType):
-    """A number from 1, or "all"."""
-
-    name = "repetition"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int | str:
-        """Return the number, or "all"."""
-        if value == "all":
-            return "all"
-        return click.IntRange(1).convert(value, param, ctx)
 
 
 def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -56,7 +45,7 @@ def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
         ),
         click.option(
             "--repetition",
-            type=_Repetition(),
+            type=NumberOrAll(1),
             metavar="K|all",
             help="Use only the K-th whole cycle (away from the start and back), counted from 1; all: learn "
             "them together (fit, imitate).",
@@ -168,8 +157,6 @@ def _anchored(anchor: str, given: dict[str, Any], scale: tuple[float, float], se
     import numpy as np
     from scipy.spatial.transform import Rotation
 
-    from dmpcpp.planning import anchor_within_reach
-
     on = _numbers("shoulder", given["shoulder"], 3) if "shoulder" in given else anchor.removeprefix("anchor_")
     at = _numbers(anchor, given[anchor], *((3,) if "shoulder" in given else (3, 6)))
     if len(at) == 6:
@@ -183,7 +170,19 @@ def _anchored(anchor: str, given: dict[str, Any], scale: tuple[float, float], se
             raise InvalidArgument(f"--tool-rotation: {flag(anchor)} has an orientation already; state one of the two.")
         tool = Rotation.from_rotvec(_numbers("tool_rotation", tool, 3), degrees=True).as_matrix()
     yaw = np.radians(given["yaw"]) if "yaw" in given else None
-    return partial(anchor_within_reach, at=at, on=on, scale=scale, yaw=yaw, tool_rotation=tool, seed=seed)
+    return partial(_searched, anchor, at=at, on=on, scale=scale, yaw=yaw, tool_rotation=tool, seed=seed)
+
+
+def _searched(anchor: str, *recording_and_arm: Any, **how: Any) -> Any:
+    """Return the placement of an anchored motion; an error about the anchor names its option."""
+    from dmpcpp.planning import anchor_within_reach
+
+    try:
+        return anchor_within_reach(*recording_and_arm, **how)
+    except InvalidArgument as error:
+        if error.argument != "at":
+            raise
+        raise InvalidArgument(str(error).replace("at:", f"{flag(anchor)}:", 1)) from None
 
 
 def _numbers(name: str, text: str, *counts: int) -> NDArray[Any]:

@@ -9,7 +9,22 @@ import click
 
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["NAMES", "recording_options", "taken_recording"]
+__all__ = ["NAMES", "NumberOrAll", "recording_options", "taken_recording"]
+
+
+class NumberOrAll(click.ParamType):
+    """A whole number from a least one, or "all"."""
+
+    name = "number or all"
+
+    def __init__(self, least: int) -> None:
+        """Take the least number."""
+        self.least = least
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int | str:
+        """Return the number, or "all"."""
+        return "all" if value == "all" else click.IntRange(self.least).convert(value, param, ctx)
+
 
 _OPTIONS = (
     click.option("--body", metavar="NAME", help="Body whose motion is used; required if the file holds several."),
@@ -21,9 +36,16 @@ _OPTIONS = (
         "--rate", type=float, metavar="HZ", help="Samples per second, of a file without times or in place of them."
     ),
     click.option("--times", metavar="header|received", help="Which stamps of a bag or MCAP file count."),
-    click.option("--where", metavar="COLUMN=VALUE", help="Use only these rows of a table; several joined by commas."),
     click.option(
-        "--episode", type=int, metavar="K", help="Episode of a data set; block of a table whose times restart."
+        "--where",
+        metavar="COLUMN=VALUE",
+        help="Use only these rows of a table (or >=, <=, !=), several with commas; COLUMN=all: all takes.",
+    ),
+    click.option(
+        "--episode",
+        type=NumberOrAll(0),
+        metavar="K|all",
+        help="Episode of a data set; block of a table whose times restart; all: learn them together.",
     ),
     click.option(
         "--rotation",
@@ -110,6 +132,7 @@ def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
     if options.pop("mend_times"):
         click.echo("dmpcpp: --mend-times is --sort-times now.", err=True)
         options["sort_times"] = True
+        click.get_current_context().params |= {"sort_times": True, "mend_times": None}  # what config.toml saves
     taken = {name: value for name in NAMES if (value := options.pop(name)) is not None}
     for name in ("unit", "time_unit", "missing"):
         if name in taken:

@@ -103,6 +103,7 @@ def _warped(
         time=warped.time,
         position=warped.position,
         rotation=warped.rotation,
+        channels=warped.channels,
     )
 
 

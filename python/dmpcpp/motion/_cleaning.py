@@ -135,13 +135,7 @@ def _trimmed(recording: Recording) -> Recording:
 
 
 def _part(recording: Recording, begin: int, end: int, note: str) -> Recording:
-    time = recording.time[begin:end]
-    return recording.with_(
-        note.format(time[0]),
-        time=time - time[0],
-        position=recording.position[begin:end],
-        rotation=recording.rotation[begin:end],
-    )
+    return recording.part(slice(begin, end), note.format(recording.time[begin]))
 
 
 def _filled(recording: Recording, found: tuple[Gap, ...]) -> Recording:
@@ -159,6 +153,7 @@ def _filled(recording: Recording, found: tuple[Gap, ...]) -> Recording:
         time=time,
         position=position,
         rotation=rotation,
+        channels={name: np.interp(time, recording.time, values) for name, values in recording.channels.items()},
     )
 
 

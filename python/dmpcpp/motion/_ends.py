@@ -18,13 +18,7 @@ def without_repeated_ends(recording: Recording) -> Recording:
     for end, name in ((0, "first"), (-1, "last")):
         if len(recording) > MIN_SAMPLES and _repeats_in_motion(recording, end):
             kept = slice(1, None) if end == 0 else slice(None, -1)
-            time = recording.time[kept]
-            recording = recording.with_(
-                f"{name} sample left out: it repeats its neighbour while the body moves",
-                time=time - time[0],
-                position=recording.position[kept],
-                rotation=recording.rotation[kept],
-            )
+            recording = recording.part(kept, f"{name} sample left out: it repeats its neighbour while the body moves")
     return recording
 
 

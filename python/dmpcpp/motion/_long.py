@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dmpcpp._notes import Note
 from dmpcpp.motion._cleaning import fill
 from dmpcpp.motion._segmentation import spans_of_cycles, spans_of_segments
 from dmpcpp.recordings import Recording
@@ -19,12 +20,7 @@ def thinned(recording: Recording, most: int = LONG) -> Recording:
     every = -(-len(recording) // most)
     if every <= 1:
         return recording
-    return recording.with_(
-        f"every {every}th of {len(recording)} samples",
-        time=recording.time[::every],
-        position=recording.position[::every],
-        rotation=recording.rotation[::every],
-    )
+    return recording.part(slice(None, None, every), f"every {every}th of {len(recording)} samples")
 
 
 def one_motion(recording: Recording, most: int = LONG) -> Recording:
@@ -44,16 +40,12 @@ def one_motion(recording: Recording, most: int = LONG) -> Recording:
             return _part(
                 recording, spans[0], f"the first of {len(spans)} {what}", f"{option}, start and end choose others"
             )
-    return few.with_(f"WARNING: {len(recording)} samples thinned to {len(few)}; start and end choose a part")
+    said = f"{len(recording)} samples thinned to {len(few)}; start and end choose a part"
+    return few.with_(Note("warning", said))
 
 
 def _part(recording: Recording, span: tuple[float, float], what: str, how: str) -> Recording:
     begin, end = max(0.0, span[0] - _MARGIN), span[1] + _MARGIN
     kept = (recording.time >= begin) & (recording.time <= end)
-    time = recording.time[kept]
-    return recording.with_(
-        f"WARNING: {len(recording)} samples are more than one motion: {what} used, {begin:.4g} .. {end:.4g} s; {how}",
-        time=time - time[0],
-        position=recording.position[kept],
-        rotation=recording.rotation[kept],
-    )
+    said = f"{len(recording)} samples are more than one motion: {what} used, {begin:.4g} .. {end:.4g} s; {how}"
+    return recording.part(kept, Note("warning", said))

@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.motion._smoothing import noise
 from dmpcpp.recordings import Recording, jumps
 
 __all__ = ["implausible", "plausible"]
@@ -18,6 +19,8 @@ _STILL_POSITION, _STILL_ANGLE = 1e-3, np.radians(0.5)  # m, rad; who moves less 
 _TURNS = np.radians(20.0)  # rad; a hand that turns so far moves, too
 _FASTEST = 30.0  # m/s; above what any hand does, far below cm or mm read as m
 _WINDOW = 0.05  # s; over less than that a glitch or noise passes for speed
+_WITHIN, _MEDIAN = 5.0, 7  # times the noise, of the median of as many samples, that a hand at rest may seem to move
+_MOST_NOISE = 0.008, np.radians(1.5)  # m, rad; what deviates by more is a motion too fast for its rate
 _NEIGHBOURS = 3  # samples whose median takes a single glitch out
 
 
@@ -49,9 +52,9 @@ def implausible(recording: Recording) -> str:
     """Return why a recording cannot be the motion of a hand, and what to do; "" of one that can.
 
     It stands still: all of it lies in a box with a diagonal of less than 1 mm, turned by less than 0.5 deg from the
-    first sample. Or it is too fast: its path is longer than 30 m/s times a window of 0.05 s, or times all of a shorter
-    recording. Or it is elsewhere within one step, and stays there. A single sample that lies elsewhere does not count,
-    and samples may be missing.
+    first sample; or it stays within five times its own noise. Or it is too fast: its path is longer than 30 m/s times a
+    window of 0.05 s, or times all of a shorter recording. Or it is elsewhere within one step, and stays there. A single
+    sample that lies elsewhere does not count, and samples may be missing.
     """
     there = ~recording.missing
     time, position = recording.time[there], recording.position[there]
@@ -61,13 +64,38 @@ def implausible(recording: Recording) -> str:
 def _stillness(recording: Recording, there: NDArray[np.bool_]) -> str:
     extent, angle = _covered(recording, there)
     if extent >= _STILL_POSITION or angle >= _STILL_ANGLE:
-        return ""
+        return _stillness_in_noise(recording, there)
     return (
         f"stands still: it moves over {1e3 * extent:.2g} mm and turns by {np.degrees(angle):.2g} deg in "
         f"{recording.duration:.4g} s, expected at least {1e3 * _STILL_POSITION:g} mm or "
         f"{np.degrees(_STILL_ANGLE):g} deg. Choose another body or another part of the recording, or state the unit of "
         "its lengths."
     )
+
+
+def _stillness_in_noise(recording: Recording, there: NDArray[np.bool_]) -> str:
+    """Return why a recording is at rest although its noise moves it; "" where it moves, or has no more than 1 mm."""
+    if there.sum() < _MEDIAN:
+        return ""
+    rotation = Rotation.from_matrix(recording.rotation[there])
+    away = _farthest(recording.position[there])
+    turned = _farthest((rotation.mean().inv() * rotation).as_rotvec())
+    if away > _WITHIN * _MOST_NOISE[0] or turned > max(_STILL_ANGLE, _WITHIN * _MOST_NOISE[1]):
+        return ""
+    found = noise(recording)
+    position, angle = min(found.position, _MOST_NOISE[0]), min(found.angle, _MOST_NOISE[1])
+    if away > _WITHIN * position or turned > _WITHIN * angle:
+        return ""
+    return (
+        f"stands still: it stays within {1e3 * away:.2g} mm and {np.degrees(turned):.2g} deg, which its noise of "
+        f"{found.describe()} explains. Choose another body or another part of the recording."
+    )
+
+
+def _farthest(values: Array) -> float:
+    """Return how far values (T, 3) go from their median, single ones left aside."""
+    median = np.median(sliding_window_view(values, _MEDIAN, axis=0), axis=-1)
+    return float(np.linalg.norm(median - np.median(values, axis=0), axis=1).max())
 
 
 def _covered(recording: Recording, there: NDArray[np.bool_]) -> tuple[float, float]:

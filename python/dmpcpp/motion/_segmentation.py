@@ -217,12 +217,7 @@ def _joined(time: Array, spans: list[Span], pause: float) -> list[Span]:
 
 def _cut(recording: Recording, spans: list[Span], note: str) -> list[Recording]:
     return [
-        recording.with_(
-            f"{note.format(k)}: {recording.time[b]:.4g} .. {recording.time[e - 1]:.4g} s",
-            time=recording.time[b:e] - recording.time[b],
-            position=recording.position[b:e],
-            rotation=recording.rotation[b:e],
-        )
+        recording.part(slice(b, e), f"{note.format(k)}: {recording.time[b]:.4g} .. {recording.time[e - 1]:.4g} s")
         for k, (b, e) in enumerate(spans, start=1)
     ]
 

@@ -33,13 +33,7 @@ def crop(recording: Recording, start: float = 0.0, end: float | None = None) -> 
             f"start, end: {kept.sum()} samples within {start:g} .. {end:g} s, expected at least "
             f"{MIN_SAMPLES}; the recording lasts {recording.duration:g} s with {len(recording)} samples."
         )
-    time = recording.time[kept]
-    return recording.with_(
-        f"cropped to {start:g} .. {end:g} s",
-        time=time - time[0],
-        position=recording.position[kept],
-        rotation=recording.rotation[kept],
-    )
+    return recording.part(kept, f"cropped to {start:g} .. {end:g} s")
 
 
 def resample(recording: Recording, rate: float) -> Recording:
@@ -98,7 +92,8 @@ def refine(recording: Recording, distance: float, angle: float) -> Recording:
 
 def evaluated(recording: Recording, at: Array, note: str, time: Array | None = None) -> Recording:
     """Return the motion at the times `at` [s] of the recording: positions on a cubic spline (not-a-knot),
-    orientations on scipy's RotationSpline. The result counts its times by `time`, `at` unless given.
+    orientations on scipy's RotationSpline, channels on straight lines. Times of the result are `time`, `at` unless
+    given.
     """
     continuous(recording, np.radians(179.0))
     turning = RotationSpline(recording.time, Rotation.from_matrix(recording.rotation))
@@ -107,4 +102,5 @@ def evaluated(recording: Recording, at: Array, note: str, time: Array | None = N
         time=at if time is None else time,
         position=CubicSpline(recording.time, recording.position)(at),
         rotation=turning(at).as_matrix(),
+        channels={name: np.interp(at, recording.time, values) for name, values in recording.channels.items()},
     )

@@ -166,10 +166,5 @@ def to_follow(recording: Recording) -> Recording:
     every = max(1, int(recording.rate / _RATE)) if len(recording) > _LONG else 1
     if every > 1:
         kept = np.append(np.arange(0, len(recording) - 1, every), len(recording) - 1)
-        recording = recording.with_(
-            f"every {every}th sample taken",
-            time=recording.time[kept],
-            position=recording.position[kept],
-            rotation=recording.rotation[kept],
-        )
+        recording = recording.part(kept, f"every {every}th sample taken")
     return motion.refine(recording, _STEP_DISTANCE, _STEP_ANGLE)

@@ -29,6 +29,7 @@ from dmpcpp.recordings._recording import Axis as Axis
 from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._registry import prepared, reader_of, summaries
 from dmpcpp.recordings._rigid_body import of_markers, rigid_body
+from dmpcpp.recordings._several import each_take
 from dmpcpp.recordings._soundness import jumps as jumps
 from dmpcpp.recordings._stamps import MADE_UP_EACH as MADE_UP_EACH
 from dmpcpp.recordings._stamps import MADE_UP_IN_ALL as MADE_UP_IN_ALL
@@ -48,6 +49,7 @@ __all__ = [
     "format_of",
     "formats",
     "load",
+    "load_all",
     "markers",
     "rigid_body",
 ]
@@ -134,6 +136,25 @@ def load(
     if reader.markers is None:
         raise InvalidArgument(f"{Path(path).name}: markers: the format {reader.name!r} holds none.")
     return reader.call(_rigid_body, Path(path), reader, markers, body, said)
+
+
+def load_all(
+    path: str | PathLike[str],
+    body: str | None = None,
+    format: str | None = None,
+    *,
+    markers: Sequence[str] | None = None,
+    **stated: object,
+) -> list[Recording]:
+    """Read every take of one body: with `episode="all"` each episode, with `where="COLUMN=all"` each of its values.
+
+    Without either the list has one recording, that of `load`. Parameters and errors are those of `load`.
+    """
+
+    def one(**said: object) -> Recording:
+        return load(path, body, format, markers=markers, **said)
+
+    return each_take(one, stated)
 
 
 def clip(name: str, body: str = "right_hand") -> Recording:

@@ -75,7 +75,10 @@ def chosen_episode(episode: int | None, available: Sequence[int], what: str) -> 
     span = f"{available[0]} to {available[-1]}" if count else "none"
     if episode is None:
         raise NotStated(
-            "episode", f"episode: {what} of {count} episodes, {span}. Specify one: episode={available[-1]}."
+            "episode",
+            f"episode: {what} of {count} episodes, {span}. Specify one: episode={available[-1]} (or learn them "
+            "together: episode='all').",
+            [{"episode": number} for number in available],
         )
     if isinstance(episode, bool) or episode not in available:
         raise InvalidArgument(f"episode: {episode!r}, but {what} holds {count} episodes, {span}.")

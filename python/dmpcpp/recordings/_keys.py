@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import operator
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from dmpcpp._text import Row
 from dmpcpp.errors import InvalidArgument, NotStated
+from dmpcpp.recordings._flag_columns import is_flag
 
-__all__ = ["Key", "keys_in", "rows_where"]
+__all__ = ["Key", "keys_in", "rows_where", "wanted"]
 
 BODY_KEYS = frozenset(("hand", "handedness", "side", "object_uid", "object_id", "body", "landmark", "joint", "marker"))
 TAKE_KEYS = frozenset(("take", "trial", "episode", "episode_index", "demo", "demonstration", "repetition"))
 """Names of columns that tell rows apart whatever their values do."""
 
+_COMPARISONS: dict[str, Callable[[float, float], bool]] = {
+    ">=": operator.ge,
+    "<=": operator.le,
+    ">": operator.gt,
+    "<": operator.lt,
+}
+_COMPARED = re.compile(r">=|<=|!=|>|<")
+_CONDITION = re.compile(r"(?P<name>[^=<>!]*[^=<>!\s][^=<>!]*)(?P<how>>=|<=|!=|=|>|<)\s*(?P<value>.*?)\s*")
 _MOST_VALUES = 0.25  # share of the rows; a column with more values is a measurement or a counter
 _PERIODIC = 0.9  # share of rows whose value comes again after one round of all values
 _LOOKED_AT = 200  # rows that show whether a column can be a key
@@ -40,11 +51,13 @@ class Key:
         what = "takes or episodes" if self.of_takes else "bodies"
         held = ", ".join(self.values[:_SHOWN]) + (", ..." if len(self.values) > _SHOWN else "")
         count = f"{len(self.values)} {'episodes' if 'episode' in self.name else what}"
-        also = "" if self.of_takes else f" (or body='{self.values[-1]}')"
+        together = f" (or learn them together: where='{self.name}=all')"
+        also = together if self.of_takes else f" (or body='{self.values[-1]}')"
         return NotStated(
             ("where",) if self.of_takes else ("where", "body"),
             f"where: the column {self.name!r} tells the rows of {count} apart: {held}. Specify one: "
             f"where='{self.name}={self.values[-1]}'{also}.",
+            [{"where": {self.name: value}} for value in self.values],
         )
 
 
@@ -67,7 +80,7 @@ def keys_in(header: Sequence[str], rows: Sequence[Row], used: Sequence[int], tim
     candidates = [
         (column, name, _plain(name) in BODY_KEYS | TAKE_KEYS)
         for column, name in enumerate(header)
-        if column not in used
+        if column not in used and not is_flag(name)
     ]
     first = rows[:_LOOKED_AT]
     candidates = [
@@ -93,7 +106,8 @@ def rows_where(header: Sequence[str], rows: Sequence[Row], where: object) -> tup
     Parameters
     ----------
     where : str or mapping
-        "COLUMN=VALUE", several joined by ","; or column -> value.
+        "COLUMN=VALUE", several joined by ","; or column -> value. In place of = stand >=, <=, >, < and !=, too; in a
+        mapping they begin the value.
 
     Raises
     ------
@@ -101,31 +115,34 @@ def rows_where(header: Sequence[str], rows: Sequence[Row], where: object) -> tup
         No such column, or no row with this value; the message lists those that exist.
     """
     kept = list(rows)
-    wanted = _wanted(where)
-    for name, value in wanted.items():
+    chosen_values = wanted(where)
+    for name, value in chosen_values.items():
         if name not in header:
             held = ", ".join(cell for cell in header if cell)
             raise InvalidArgument(f"where: no column {name!r}. The file holds: {held[:300]}.")
         column = list(header).index(name)
-        chosen = [row for row in kept if _equal(_cell(row, column), value)]
+        chosen = [row for row in kept if _meets(_cell(row, column), value)]
         if not chosen:
             unique = list(dict.fromkeys(_cell(row, column) for row in kept))
-            raise InvalidArgument(f"where: no row with {name}={value}. The column holds: {', '.join(unique[:_SHOWN])}.")
+            raise InvalidArgument(
+                f"where: no row with {_condition(name, value)}. The column holds: {', '.join(unique[:_SHOWN])}."
+            )
         kept = chosen
-    said = ", ".join(f"{name}={value}" for name, value in wanted.items())
+    said = ", ".join(_condition(name, value) for name, value in chosen_values.items())
     return kept, [f"{len(kept)} of {len(rows)} rows, with {said}"]
 
 
-def _wanted(where: object) -> dict[str, str]:
+def wanted(where: object) -> dict[str, str]:
+    """Return the values that were specified by column."""
     if isinstance(where, Mapping):
         return {str(name): str(value) for name, value in where.items()}
-    wanted = {}
+    found = {}
     for part in str(where).split(","):
-        name, equals, value = part.partition("=")
-        if not equals or not name.strip():
-            raise InvalidArgument(f"where: {part!r}, expected COLUMN=VALUE such as hand=right.")
-        wanted[name.strip()] = value.strip()
-    return wanted
+        match = _CONDITION.fullmatch(part)
+        if match is None:
+            raise InvalidArgument(f"where: {part!r}, expected COLUMN=VALUE such as hand=right, or confidence>=0.5.")
+        found[match["name"].strip()] = match["how"].removesuffix("=" if match["how"] == "=" else "") + match["value"]
+    return found
 
 
 def _may_be_key(unique: Sequence[str], rows: int) -> bool:
@@ -175,6 +192,24 @@ def _column(rows: Sequence[Row], column: int) -> list[str]:
 
 def _cell(row: Row, column: int) -> str:
     return row[1][column].strip() if column < len(row[1]) else ""
+
+
+def _condition(name: str, value: str) -> str:
+    return f"{name}{'' if _COMPARED.match(value) else '='}{value}"
+
+
+def _meets(cell: str, value: str) -> bool:
+    """Return whether a cell equals a value, or compares with the number behind >=, <=, >, < or !=."""
+    match = _COMPARED.match(value)
+    if match is None:
+        return _equal(cell, value)
+    limit = value[match.end() :].strip()
+    if match[0] == "!=":
+        return not _equal(cell, limit)
+    try:
+        return _COMPARISONS[match[0]](float(cell), float(limit))
+    except ValueError:
+        return False
 
 
 def _equal(cell: str, value: str) -> bool:

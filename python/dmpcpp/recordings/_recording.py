@@ -47,6 +47,8 @@ class Recording:
         The world axis that points up; None when neither the format nor the caller said it.
     history : tuple of Note
         What was done to the data on the way here, one sentence a step, oldest first.
+    channels : mapping of str to array (T,)
+        Other quantities at the same times, such as a gripper's width, in the file's units; NaN where missing.
 
     Raises
     ------
@@ -114,8 +116,22 @@ class Recording:
         rotation = np.isnan(self.rotation).all(axis=(1, 2))
         return np.asarray(np.isnan(self.position).all(axis=1) & rotation)
 
+    def part(self, kept: slice | NDArray[np.bool_] | NDArray[np.int_], note: str) -> Recording:
+        """Return the samples that are kept, channels too, counted from a time of 0, with `note` in the history."""
+        time = self.time[kept]
+        return self.with_(
+            note,
+            time=time - time[0],
+            position=self.position[kept],
+            rotation=self.rotation[kept],
+            channels={name: values[kept] for name, values in self.channels.items()},
+        )
+
     def with_(self, note: str, **changes: object) -> Recording:
-        """Return a copy with the fields in `changes` replaced and `note` appended to its history."""
+        """Return a copy with the fields in `changes` replaced and `note` appended to its history.
+
+        Other times drop the channels unless these are given, too.
+        """
         if "time" in changes:
             changes = {"channels": {}, **changes}
         return replace(self, history=(*self.history, note), **changes)  # type: ignore[arg-type]

@@ -47,9 +47,11 @@ class Stated:
         Which stamps of a bag or MCAP file count: those in the headers of the messages (None), or when the recorder
         received each message ("log" is another name for it).
     where : str or mapping, optional
-        Rows of a table that count: "COLUMN=VALUE", several joined by ",".
+        Rows of a table that count: "COLUMN=VALUE", or with >=, <=, >, < or !=; several joined by ",". "COLUMN=all" is
+        for `load_all`.
     episode : int, optional
-        Which episode of a data set, by its index; of a table whose times begin anew, which block, from 0.
+        Which episode of a data set, by its index; of a table whose times begin anew, which block, from 0. "all" is for
+        `load_all`.
     rotation : str, optional
         What the numbers of an orientation are: "quat_xyzw", "quat_wxyz", "rotvec" (rotation vector), an order of Euler
         angles, "rot6d" (first two rows of the matrix), "rot6d_columns" or "mat9". Another name for `quat_order` and
@@ -92,7 +94,7 @@ class Stated:
     rate: float | None = None
     times: Literal["header", "received", "log"] | None = None
     where: str | Mapping[str, object] | None = None
-    episode: int | None = None
+    episode: int | Literal["all"] | None = None
     rotation: str | None = None
     layout: str | Sequence[str] | None = None
     dataset: str | None = None
@@ -109,6 +111,11 @@ class Stated:
 
     def __post_init__(self) -> None:
         """Read `rotation` as `quat_order` or `euler_order` where it is one of theirs."""
+        if self.episode == "all":
+            raise InvalidArgument(
+                "episode: 'all' is several recordings, which `fit` and `imitate` learn together "
+                "(`recordings.load_all`). Specify one of them: episode=0."
+            )
         said = self.rotation
         if said is None:
             return

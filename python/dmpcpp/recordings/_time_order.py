@@ -40,7 +40,9 @@ def block(time: Array, episode: int | None) -> tuple[NDArray[np.int_], list[str]
     raise NotStated(
         "episode",
         f"episode: {episode!r}, but the times begin anew {len(begins) - 1} times (first at sample {begins[1]}): "
-        f"{len(begins)} takes or episodes below each other. Specify one: episode=0 to episode={len(begins) - 1}.",
+        f"{len(begins)} takes or episodes below each other. Specify one: episode=0 to episode={len(begins) - 1} (or "
+        "learn them together: episode='all').",
+        [{"episode": number} for number in range(len(begins))],
     )
 
 

@@ -13,11 +13,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
+from dmpcpp._notes import Note
 from dmpcpp._text import Cells, read_text
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._clock import clock_texts
 from dmpcpp.recordings._columns import WHOLE, bodies_in, column, repeated, times_in, unit_of
+from dmpcpp.recordings._flag_columns import flag_notes
 from dmpcpp.recordings._keys import Key, keys_in, rows_where
 from dmpcpp.recordings._layout import layout_of
 from dmpcpp.recordings._markers import Markers, distinct
@@ -134,7 +136,7 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=[*table.notes, *sampled.notes, *notes, *_told_up(table, body, stated)],
+        notes=[*table.notes, *sampled.notes, *notes, *_told_up(table, body, stated), *_flagged(table, body)],
         world=table.world(body, stated),
         channels={name: _channel(table, place) for name, place in table.channels.items()},
     )
@@ -166,6 +168,10 @@ def _told_up(table: _Table, body: str, stated: Stated) -> list[str]:
     if stated.up_axis is not None or table.up_axis(body) is None:
         return []
     return ["taken: up_axis: y, as in logs of Unity, WebXR and OpenXR"]
+
+
+def _flagged(table: _Table, body: str) -> list[Note]:
+    return flag_notes(table.header, table.cells.rows, body, tuple(table.bodies))
 
 
 def _channel(table: _Table, place: int) -> Array:
