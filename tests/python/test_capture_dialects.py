@@ -316,3 +316,33 @@ def test_three_lines_of_names_are_one(tmp_path):
     found = recordings.markers(path, rate=30.0)
     assert found.names == ("wrist", "elbow")
     np.testing.assert_allclose(found.position[:, 1], rows[:, 4:7])
+
+
+def test_a_table_of_hot3d_says_that_its_up_axis_is_open(tmp_path):
+    axes = [f"t_wo_{axis}[m]" for axis in "xyz"] + [f"q_wo_{axis}" for axis in "wxyz"]
+    rows = [f"1,{33_000_000 * k},{0.01 * k},0.2,1.1,1,0,0,0" for k in range(20)]
+    path = tmp_path / "headset_trajectory.csv"
+    path.write_text("\n".join([f"object_uid,timestamp[ns],{','.join(axes)}", *rows]))
+    told = [note for note in recordings.load(path).history if note.about == "up_axis"]
+    assert told == ["taken: up_axis: z, which no file states; recordings of Quest 3 have y up"]
+    assert not [note for note in recordings.load(path, up_axis="y").history if note.about == "up_axis"]
+
+
+def test_a_trc_whose_first_line_has_blanks_in_place_of_tabs_is_read(tmp_path):
+    head = ["PathFileType    4   (X/Y/Z) a.trc", "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\t\t"]
+    head += ["100\t100\t20\t1\tmm\t\t", "Frame#\tTime\tWRIST\t\t\t", "\t\tX1\tY1\tZ1  "]
+    rows = [f"{k}\t{0.01 * k}\t{10 * k}\t5\t7" for k in range(20)]
+    path = tmp_path / "a.trc"
+    path.write_text("\r\n".join([*head, *rows]))
+    found = recordings.markers(path)
+    np.testing.assert_allclose(found.position[:, 0, 0], [0.01 * k for k in range(20)], atol=1e-12)
+
+
+def test_a_table_of_the_glasses_without_hands_says_so(tmp_path):
+    path = tmp_path / "eye_gaze.csv"
+    rows = [f"{100_000 * k},0.1,0.2,0.0315,0,0" for k in range(20)]
+    path.write_text(
+        "\n".join(["tracking_timestamp_us,yaw,pitch,tx_left_eye_cpf,ty_left_eye_cpf,tz_left_eye_cpf", *rows])
+    )
+    with pytest.raises(InvalidArgument, match="no landmarks, and no wrists: it is no trajectory of hands"):
+        recordings.markers(path)

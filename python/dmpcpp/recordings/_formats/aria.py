@@ -124,7 +124,9 @@ def markers(path: Path, stated: Stated) -> Markers:
     file = _read(path)
     held = {name: where for name, where in file.holding(_POINT).items() if "landmark" in name}
     if not held:
-        raise InvalidArgument("markers: the file holds no landmarks; the wrists are bodies: body='left_wrist'.")
+        wrists = [name for name in file.holding(_POINT) if "wrist" in name]
+        what = f"the wrists are bodies: body='{wrists[0]}'" if wrists else "and no wrists: it is no trajectory of hands"
+        raise InvalidArgument(f"markers: the file holds no landmarks, {what}.")
     columns = [where[what] for where in held.values() for what in _POINT]
     called = [f"{what} of {name!r}" for name in held for what in _POINT]
     points = file.cells.numbers(columns, called).reshape(len(file.cells.rows), len(held), 3)

@@ -10,6 +10,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+from dmpcpp._notes import Note
 from dmpcpp._text import data_lines, read_text
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._orientation import from_quaternions
@@ -18,7 +19,9 @@ from dmpcpp.recordings._recording import Recording
 from dmpcpp.recordings._statement import Stated
 from dmpcpp.recordings._world import World
 
-__all__ = ["READER"]
+__all__ = ["READER", "UP_OPEN"]
+
+UP_OPEN = "taken: up_axis: z, which no file states; recordings of Quest 3 have y up"
 
 _HANDS = {"0": "left", "1": "right"}
 _Row = tuple[int, dict[str, list[float]]]  # stamp [ns], hand -> x y z qw qx qy qz
@@ -48,8 +51,8 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
     )
 
 
-def _told_up(stated: Stated) -> list[str]:
-    return [] if stated.up_axis else ["taken: up_axis: z, which no file states; recordings of Quest 3 have y up"]
+def _told_up(stated: Stated) -> list[Note]:
+    return [] if stated.up_axis else [Note("assumed", UP_OPEN, about="up_axis")]
 
 
 def _hands(rows: list[_Row]) -> tuple[str, ...]:

@@ -20,6 +20,7 @@ from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._clock import clock_texts
 from dmpcpp.recordings._columns import WHOLE, bodies_in, column, repeated, times_in, unit_of
 from dmpcpp.recordings._flag_columns import flag_notes
+from dmpcpp.recordings._formats.hot3d import UP_OPEN
 from dmpcpp.recordings._keys import Key, keys_in, rows_where
 from dmpcpp.recordings._layout import layout_of
 from dmpcpp.recordings._markers import Markers, distinct
@@ -37,6 +38,7 @@ __all__ = ["READER", "bodies", "read"]
 
 _SUFFIXES = (".csv", ".tsv")
 _TUM = ("x", "y", "z", "qx", "qy", "qz", "qw")  # columns behind the time
+_HOT3D = re.compile(r"[tq]_wo_[wxyz]")  # HOT3D and ADT: object to world
 _HEADSET = re.compile(
     r"(?:.*[_. ])?(?:(?:Pos|Rot|Orient)[XYZW]|(?:pos|rot)_[xyzw])"
 )  # names in logs of Unity, WebXR and OpenXR
@@ -164,10 +166,14 @@ def markers(path: Path, stated: Stated) -> Markers:
     )
 
 
-def _told_up(table: _Table, body: str, stated: Stated) -> list[str]:
-    if stated.up_axis is not None or table.up_axis(body) is None:
+def _told_up(table: _Table, body: str, stated: Stated) -> list[Note]:
+    if stated.up_axis is not None:
         return []
-    return ["taken: up_axis: y, as in logs of Unity, WebXR and OpenXR"]
+    if table.up_axis(body) is not None:
+        return [Note("assumed", "taken: up_axis: y, as in logs of Unity, WebXR and OpenXR", about="up_axis")]
+    if all(_HOT3D.match(table.header[place]) for place in table.bodies[body].values() if place < len(table.header)):
+        return [Note("assumed", UP_OPEN, about="up_axis")]
+    return []
 
 
 def _flagged(table: _Table, body: str) -> list[Note]:

@@ -39,7 +39,7 @@ def markers(path: Path, stated: Stated) -> Markers:
 def _rows(path: Path) -> list[Row]:
     """Return the lines that hold more than separators."""
     lines = list(data_lines(read_text(path), comment="//"))
-    delimiter = "\t" if lines and "\t" in lines[0][1] else ","
+    delimiter = "\t" if any("\t" in text for _, text in lines[:5]) else ","  # the first line may have blanks
     rows = [row for row in split_all(lines, delimiter) if any(cell.strip() for cell in row[1])]
     if len(rows) < 6:
         raise InvalidArgument(f"{len(rows)} lines, expected five of a TRC header and then data.")
