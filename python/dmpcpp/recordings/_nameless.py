@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from dmpcpp._notes import Note
 from dmpcpp._text import Cells
 from dmpcpp._typing import Array
 from dmpcpp.errors import NotStated
@@ -29,7 +30,8 @@ def from_shape(lines: TableLines) -> tuple[dict[str, int], str] | None:
         return layout_of(Stated(layout="mat12"))[0].where, "KITTI: twelve numbers a line taken as 3 x 4 matrices"
     if width == 8 and _is_tum(_numbers(lines, width)):
         where = layout_of(Stated(layout="time,x,y,z,quat_xyzw"))[0].where
-        return where, "taken: quat_order: xyzw, the order of a TUM trajectory (no line names the columns)"
+        said = "taken: quat_order: xyzw, the order of a TUM trajectory (no line names the columns)"
+        return where, Note("assumed", said, about="quat_order")
     return None
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._world import LIKELY_STEP, seconds
@@ -55,7 +56,8 @@ def _note(what: str, stated: float, own: float | None) -> str:
     said += f"; by its own {what} {own:.4g} Hz"
     if abs(own / stated - 1.0) <= _OTHER_TEMPO:
         return said
-    return f"WARNING: {said}, so the motion is taken {stated / own:.3g} times as fast as the file says"
+    said = f"{said}, so the motion is taken {stated / own:.3g} times as fast as the file says"
+    return Note("warning", said, about="rate")
 
 
 def _rate_of(times: Callable[[], Array], unit: str | float | None) -> float | None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._orientation import HELD_FIXED, from_euler, from_matrices, from_quaternions, held_fixed
@@ -142,7 +143,9 @@ def _three(values: Array, stated: Stated, lost: NDArray[np.bool_]) -> tuple[Arra
     if stated.euler_order == "rotvec":
         return _vectors(values, stated.angle_unit, lost)
     doubt = _half_turns(values, stated.angle_unit, lost)
-    return from_euler(values, stated.euler_order, stated.angle_unit, lost), ["WARNING:" + doubt] if doubt else []
+    return from_euler(values, stated.euler_order, stated.angle_unit, lost), [
+        Note("warning", doubt.strip())
+    ] if doubt else []
 
 
 def _half_turns(values: Array, unit: str | None, lost: NDArray[np.bool_]) -> str:

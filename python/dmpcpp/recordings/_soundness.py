@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import NotStated
 
@@ -45,15 +46,13 @@ def lost_zeros(position: Array, known: Mask | None = None) -> Mask:
     return zero if nearest > _ZERO_JUMP * largest else np.zeros(len(position), dtype=bool)
 
 
-def zero_note(lost: Mask, what: str = "samples") -> list[str]:
+def zero_note(lost: Mask, what: str = "samples") -> list[Note]:
     """Return what the history says of samples (T,) that `lost_zeros` found."""
     if not lost.any():
         return []
     first, last = int(np.argmax(lost)), len(lost) - 1 - int(np.argmax(lost[::-1]))
-    return [
-        f"WARNING: {int(lost.sum())} {what} of exactly 0, 0, 0 taken as lost (samples {first} to {last}); "
-        "missing='nan' keeps zeros"
-    ]
+    said = f"{int(lost.sum())} {what} of exactly 0, 0, 0 taken as lost (samples {first} to {last})"
+    return [Note("warning", f"{said}; missing='nan' keeps zeros", about="missing")]
 
 
 def held_values(time: Array, position: Array, rotation: Array | None) -> tuple[Mask, list[str]]:
@@ -86,14 +85,11 @@ def _held_notes(time: Array, held: list[tuple[int, int, int, float]]) -> list[st
     count, begin, end, jump = max(held)
     where = f"{time[begin]:.4g} to {time[end]:.4g} s"
     if len(held) == 1:
-        return [
-            f"WARNING: {count} samples repeat one value ({where}) before a jump of {1e3 * jump:.3g} mm: taken as lost"
-        ]
+        said = f"{count} samples repeat one value ({where}) before a jump of {1e3 * jump:.3g} mm: taken as lost"
+        return [Note("warning", said)]
     total = sum(run[0] for run in held)
-    return [
-        f"WARNING: {total} samples in {len(held)} runs repeat one value before a jump: taken as lost (the longest, "
-        f"{count} samples, {where}, before {1e3 * jump:.3g} mm)"
-    ]
+    said = f"{total} samples in {len(held)} runs repeat one value before a jump: taken as lost"
+    return [Note("warning", f"{said} (the longest, {count} samples, {where}, before {1e3 * jump:.3g} mm)")]
 
 
 def _runs(flags: Mask) -> list[tuple[int, int]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import NotStated
 
@@ -73,7 +74,9 @@ def without_bursts(time: Array, position: Array, clock: float) -> tuple[NDArray[
         rate = 1.0 / (clock * usual_step(time[first]))
         return first, [f"stamps in pairs, as of two cameras: {said}; the first of each pair kept, {rate:.4g} Hz"]
     if count <= _FEW * len(steps):
-        return first, [f"WARNING: stamps in bursts: {said}; samples so close behind another left out"]
+        return first, [
+            Note("warning", f"stamps in bursts: {said}; samples so close behind another left out", about="rate")
+        ]
     raise NotStated(
         "rate",
         f"rate: the stamps lie in bursts: {said}. They tell when samples were written, not when they were taken. "

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.recordings._markers import Markers
@@ -253,7 +254,7 @@ class Stated:
     def order(self, usual: QuatOrder) -> tuple[QuatOrder, list[str]]:
         """Return the order of quaternions: as specified, else the usual one of a format whose columns have no names."""
         if self.quat_order is None:
-            return usual, [f"taken: quat_order: {usual}, as the format defines it"]
+            return usual, [Note("assumed", f"taken: quat_order: {usual}, as the format defines it", about="quat_order")]
         return self.quat_order, []
 
     def without(self, *names: str) -> Stated:

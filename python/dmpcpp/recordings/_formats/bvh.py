@@ -135,7 +135,13 @@ def _up_axis(joints: dict[str, Joint], cells: Cells, stated: Stated) -> tuple[Ax
     found = upward(wanted, np.swapaxes(places, 0, 1)) if wanted else None
     if found is not None:
         return found, [f"up axis {found}: the head is above the feet along it"]
-    return "y", ["taken: up_axis: y, as in most BVH files; no joints of head and feet show it"]
+    return "y", [
+        Note(
+            "assumed",
+            "taken: up_axis: y, as in most BVH files; no joints of head and feet show it",
+            about="up_axis",
+        )
+    ]
 
 
 def _local_pose(joint: Joint, cells: Cells) -> tuple[Array, Array]:

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import FileError, InvalidArgument, NotStated
 from dmpcpp.recordings._datasets import Allowance, chosen_episode, needed
@@ -115,7 +116,9 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         sampled = _sampling(file, source, len(position), stated)
         known = file.known
         told = (
-            [f"taken: up_axis: {known.up_axis}, as {known.name} has it"] if known.up_axis and not stated.up_axis else []
+            [Note("assumed", f"taken: up_axis: {known.up_axis}, as {known.name} has it", about="up_axis")]
+            if known.up_axis and not stated.up_axis
+            else []
         )
         return sampled.stated.recording(
             time=sampled.time,

@@ -307,7 +307,13 @@ def _first_as_time(lines: TableLines) -> tuple[int | None, list[str]]:
     if len(first) < 3 or not (steps > 0.0).all() or np.ptp(steps) > 0.5 * np.median(steps) or (first % 1 == 0.0).all():
         return None, []
     step = float(np.median(steps))
-    return 0, [f"taken: rate: the first column has no name and increases by {step:.4g}: taken as the times"]
+    return 0, [
+        Note(
+            "assumed",
+            f"taken: rate: the first column has no name and increases by {step:.4g}: taken as the times",
+            about="rate",
+        )
+    ]
 
 
 def _grippers(header: list[str]) -> dict[str, int]:
