@@ -34,8 +34,9 @@ TESTS = {
     "metrics": ["metrics"],
     "motion": ["motion", "motion_gaps", "motion_segmentation", "motion_alignment", "plausibility", "learning_noise"],
     "recordings": [
-        "recordings", "tables", "markers", "rigid_body", "bvh", "c3d", "ros", "sampling", "inspection",
-        "inspection_whole", "recordings_fuzz",
+        "recording_kinds", "stamps", "soundness", "long_tables", "representations", "tables", "markers", "datasets",
+        "capture_dialects", "rigid_body", "bvh", "c3d", "sampling", "hostile_files", "takes", "recordings", "ros",
+        "inspection", "inspection_whole", "recordings_fuzz",
     ],
     "robot": ["arms", "urdf_changes", "convex_pieces", "robot_description", "cli_checking", "planning", "retarget"],
     "planning": ["planning", "retarget_anchor", "retarget", "cli_learning", "placing"],
