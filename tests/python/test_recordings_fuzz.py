@@ -230,12 +230,16 @@ def hot3d() -> bytes:
     return "\n".join(map(line, rows())).encode()
 
 
-def hdf5(folder) -> bytes:
+def hdf5(folder, **packed) -> bytes:
     h5py = pytest.importorskip("h5py")
     with h5py.File(folder / "seed.h5", "w") as file:
-        file["data/demo_0/obs/robot0_eef_pos"] = rows()[:, 1:4]
-        file["data/demo_0/obs/robot0_eef_quat"] = rows()[:, 4:]
+        file.create_dataset("data/demo_0/obs/robot0_eef_pos", data=rows()[:, 1:4], **packed)
+        file.create_dataset("data/demo_0/obs/robot0_eef_quat", data=rows()[:, 4:], **packed)
     return (folder / "seed.h5").read_bytes()
+
+
+def hdf5_packed(folder) -> bytes:
+    return hdf5(folder, chunks=(5, 3), compression="gzip", shuffle=True, fletcher32=True)
 
 
 def lerobot(folder) -> bytes:
@@ -248,12 +252,16 @@ def lerobot(folder) -> bytes:
     return (folder / "seed.parquet").read_bytes()
 
 
-def zarr(folder) -> bytes:
+def zarr_3(folder) -> bytes:
+    return zarr(folder, version=3)
+
+
+def zarr(folder, version=2) -> bytes:
     package = pytest.importorskip("zarr")
     path = folder / "seed.zarr.zip"
     path.unlink(missing_ok=True)
     with package.storage.ZipStore(path, mode="w") as store:
-        root = package.open_group(store, mode="w", zarr_format=2)
+        root = package.open_group(store, mode="w", zarr_format=version)
         root.create_array("data/robot0_eef_pos", data=rows()[:, 1:4])
         root.create_array("data/robot0_eef_rot_axis_angle", data=0.1 * rows()[:, 1:4])
         root.create_array("meta/episode_ends", data=np.array([FRAMES]))
@@ -372,8 +380,10 @@ MADE = {
     "mvnx": ("a.mvnx", mvnx),
     "hot3d": ("a.jsonl", hot3d),
     "hdf5": ("a.h5", hdf5),
+    "hdf5 packed": ("packed.h5", hdf5_packed),
     "lerobot": ("a.parquet", lerobot),
     "zarr": ("a.zarr.zip", zarr),
+    "zarr 3": ("three.zarr.zip", zarr_3),
     "ros foxglove": ("foxglove.mcap", foxglove),
 }
 KINDS = list(MADE)
