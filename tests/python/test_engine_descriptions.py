@@ -46,6 +46,14 @@ ODD = {
         extra='<mujoco><compiler balanceinertia="true"/></mujoco><gazebo reference="l1"><a/></gazebo>'
         '<transmission name="t"/>'
     ),
+    "attributes of others": six_axis(
+        robot='<robot name="six" xmlns:drake="https://drake.mit.edu">',
+        limit=LIMIT.replace("<limit ", '<limit drake:acceleration="5" '),
+    ),
+    "leftovers of xacro": six_axis(extra='<xacro:property name="a" value="1"/><gazebo><ros:x y:z="2"/></gazebo>'),
+    "an empty axis of a fixed joint": six_axis(
+        extra='<link name="l7"/><joint name="f" type="fixed"><parent link="l6"/><child link="l7"/><axis/></joint>'
+    ),
     "shapes of one name": six_axis(shape=BOX.replace("<collision>", '<collision name="shape">')),
     "one line": six_axis(inertial=LONG).replace("\n", " "),
     "turned inertias": six_axis(inertial=TURNED),

@@ -20,6 +20,7 @@ from dmpcpp.robot._reach import farthest_reach, require_within_reach
 from dmpcpp.robot._shapes import levers
 from dmpcpp.robot._stated_limits import with_limits_file, with_stated
 from dmpcpp.robot._stated_use import jerk_check, stated_duration_factor, tool_speed_check
+from dmpcpp.robot._xml import parsed
 
 __all__ = [
     "FLOOR",
@@ -55,6 +56,7 @@ __all__ = [
     "moment_change",
     "nearest_physical",
     "overloads",
+    "parsed",
     "payload_of",
     "random_postures",
     "repaired_links",

@@ -18,6 +18,7 @@ from dmpcpp.robot._engine_urdf import write_inertia
 from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._payload import with_description
 from dmpcpp.robot._shapes import points_of, pose_of
+from dmpcpp.robot._xml import parsed
 
 __all__ = ["DENSITY_NOTE", "links_by_density", "with_density", "without_dynamics"]
 
@@ -42,7 +43,7 @@ def with_density(arm: Arm, density: float) -> Arm:
     """
     if not 0.0 < density < math.inf:
         raise InvalidArgument(f"density: {density}, expected a positive number of kg/m^3.")
-    robot = ET.fromstring(arm.urdf)
+    robot = parsed(arm.urdf)
     lacking = [link for link in _moved(robot, arm) if not _weighs(link)]
     solid = [(link, pieces) for link in lacking if (pieces := list(_pieces(link, arm.folder)))]
     if not solid:
@@ -54,7 +55,7 @@ def with_density(arm: Arm, density: float) -> Arm:
 
 def without_dynamics(arm: Arm) -> Arm:
     """Return the arm for a run by kinematics alone: no effort limits, and placeholders where masses are missing."""
-    robot = ET.fromstring(arm.urdf)
+    robot = parsed(arm.urdf)
     for link in _moved(robot, arm):
         if not _weighs(link):
             _replace_inertial(link, 1.0, np.zeros(3), 0.01 * np.eye(3))
@@ -63,7 +64,7 @@ def without_dynamics(arm: Arm) -> Arm:
 
 def links_by_density(arm: Arm) -> tuple[str, ...]:
     """Return the links whose mass was computed from their shapes."""
-    found = ET.fromstring(arm.urdf).findall("link")
+    found = parsed(arm.urdf).findall("link")
     return tuple(link.get("name", "") for link in found if link.find(f"inertial[@{DENSITY_NOTE}]") is not None)
 
 

@@ -20,6 +20,7 @@ from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot._shapes import lowest
 from dmpcpp.robot._urdf_changes import freeze
+from dmpcpp.robot._xml import parsed
 
 __all__ = ["FLOOR", "ContactRules", "Surroundings", "contact_rules", "floor_height"]
 
@@ -112,7 +113,7 @@ def contact_rules(arm: Arm, surroundings: Surroundings | None = None) -> Contact
 
 @lru_cache(maxsize=32)
 def _rules(urdf: str, folder: str, joints: tuple[str, ...], ignored: tuple[tuple[str, str], ...]) -> ContactRules:
-    robot = ET.fromstring(urdf)
+    robot = parsed(urdf)
     links = {link.get("name", "") for link in robot.findall("link")}
     solid = {link.get("name", "") for link in robot.findall("link") if link.find("collision") is not None}
     fixed, arms = (
@@ -149,7 +150,7 @@ def floor_height(urdf: str, arm: Arm, surroundings: Surroundings | None, still: 
     floor = (surroundings or Surroundings()).floor
     if floor != "auto":
         return floor
-    robot = copy.deepcopy(ET.fromstring(urdf))
+    robot = copy.deepcopy(parsed(urdf))
     freeze(robot, arm.joint_names)
     return min(0.0, lowest(robot, still))
 

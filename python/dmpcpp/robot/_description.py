@@ -31,6 +31,7 @@ from dmpcpp.robot._urdf_changes import (
     rename_links,
     scale_masses,
 )
+from dmpcpp.robot._xml import parsed
 
 _DRAWN = (".obj", ".stl", ".dae")  # by Bullet
 _WITH_MOTORS = ("revolute", "continuous", "prismatic")
@@ -110,7 +111,7 @@ def describe(
         A mesh cannot be found, a mass is negative, an inertia is not made of finite numbers, nothing beyond a
         joint has a mass, or a joint of the arm follows another.
     """
-    robot = ET.fromstring(arm.urdf)
+    robot = parsed(arm.urdf)
     _refuse_folded_joints(robot, arm)
     normalize_axes(robot)
     links = robot.findall("link")
@@ -133,7 +134,7 @@ def describe(
 
 def links_of(arm: Arm) -> frozenset[str]:
     """Names of all links of the robot that the arm is a part of."""
-    return frozenset(link.get("name", "") for link in ET.fromstring(arm.urdf).findall("link"))
+    return frozenset(link.get("name", "") for link in parsed(arm.urdf).findall("link"))
 
 
 def links_beyond(robot: ET.Element, joint_name: str) -> frozenset[str]:

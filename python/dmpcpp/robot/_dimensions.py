@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dmpcpp._core import Arm
 from dmpcpp.checks import Check
 from dmpcpp.robot._reach import farthest_reach
+from dmpcpp.robot._xml import parsed
 
 __all__ = ["dimension_checks", "dimension_doubts"]
 
@@ -45,7 +46,7 @@ def _doubts(arm: Arm) -> Iterator[tuple[str, str]]:
 
 def _mass(urdf: str) -> float:
     try:
-        found = ET.fromstring(urdf).iterfind("link/inertial/mass")
+        found = parsed(urdf).iterfind("link/inertial/mass")
         return sum(max(0.0, float(mass.get("value", 0.0))) for mass in found)
     except (ET.ParseError, ValueError):
         return 0.0

@@ -93,6 +93,7 @@ def _lines(element: ET.Element, known: dict[str, dict]) -> Iterator[str]:  # typ
         return
     if element.tag in ("collision", "visual"):
         attributes.pop("name", None)  # engines want no two alike
+    attributes = {name: value for name, value in attributes.items() if "{" not in name}  # of other programs
     opened = " ".join([f"<{element.tag}", *(f"{name}={quoteattr(value)}" for name, value in attributes.items())])
     inside = [line for part in element if part.tag in known for line in _lines(part, known[part.tag])]
     if not inside:

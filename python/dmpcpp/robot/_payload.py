@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dmpcpp._core import Arm
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot._urdf_changes import KNOWN_PAYLOAD, add_payload
+from dmpcpp.robot._xml import parsed
 
 __all__ = ["payload_of", "with_description", "with_payload"]
 
@@ -27,7 +28,7 @@ def with_payload(arm: Arm, mass: float, at: Sequence[float] = (0.0, 0.0, 0.0)) -
     place = tuple(float(x) for x in at)
     if not 0.0 <= mass < math.inf or len(place) != 3 or not all(map(math.isfinite, place)):
         raise InvalidArgument(f"payload: {mass}, {list(at)}, expected a mass in kg >= 0 and a place x, y, z in m.")
-    robot = ET.fromstring(arm.urdf)
+    robot = parsed(arm.urdf)
     for tag in ("link", "joint"):
         for element in robot.findall(tag):
             if element.get("name", "").startswith(KNOWN_PAYLOAD):
@@ -39,7 +40,7 @@ def with_payload(arm: Arm, mass: float, at: Sequence[float] = (0.0, 0.0, 0.0)) -
 
 def payload_of(arm: Arm) -> float:
     """Return the mass of the payload that was stated [kg]."""
-    mass = ET.fromstring(arm.urdf).find(f"link[@name='{KNOWN_PAYLOAD}']/inertial/mass")
+    mass = parsed(arm.urdf).find(f"link[@name='{KNOWN_PAYLOAD}']/inertial/mass")
     return 0.0 if mass is None else float(mass.get("value", 0.0))
 
 

@@ -15,6 +15,7 @@ from functools import lru_cache
 import numpy as np
 
 from dmpcpp._core import Arm
+from dmpcpp.robot._xml import parsed
 
 __all__ = ["LimitDoubt", "joint_types", "limit_doubts", "unjudged", "why"]
 
@@ -85,7 +86,7 @@ def _listed(joints: list[str]) -> str:
 def joint_types(urdf: str) -> dict[str, str]:
     """Return the type of every joint of a URDF; none for a text that is not XML."""
     try:
-        robot = ET.fromstring(urdf)
+        robot = parsed(urdf)
     except (ET.ParseError, ValueError):
         return {}
     return {joint.get("name", ""): joint.get("type", "") for joint in robot.findall("joint")}

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot._xml import parsed
 
 __all__ = ["farthest_reach", "require_within_reach"]
 
@@ -51,7 +52,7 @@ def require_within_reach(point: ArrayLike, arm: Arm, what: str) -> None:
 
 def _chain(arm: Arm) -> list[ET.Element]:
     """Return the joints from base to tip."""
-    robot = ET.fromstring(arm.urdf)
+    robot = parsed(arm.urdf)
     above = {_attribute(joint, "child", "link"): joint for joint in robot.findall("joint")}
     chain: list[ET.Element] = []
     link = arm.tip

@@ -45,7 +45,8 @@ def add_payload(robot: ET.Element, tip: str, mass: float, offset: tuple[float, .
 def normalize_axes(robot: ET.Element) -> None:
     """Give every joint's axis the length 1, as ``Arm`` does: Bullet takes a longer one for a faster joint."""
     for axis in robot.iterfind("joint/axis"):
-        vector = _vector(axis.get("xyz", "1 0 0"))
+        axis.set("xyz", axis.get("xyz", "1 0 0"))  # MuJoCo asks for it
+        vector = _vector(axis.get("xyz", ""))
         length = float(np.linalg.norm(vector))
         if length > 0.0 and length != 1.0:
             axis.set("xyz", _text(vector / length))

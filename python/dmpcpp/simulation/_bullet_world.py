@@ -10,7 +10,6 @@ import importlib
 import importlib.metadata
 import sys
 import tempfile
-import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
@@ -32,6 +31,7 @@ from dmpcpp.robot import (
     floor_height,
     levers,
     links_of,
+    parsed,
 )
 from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, checked_time_step, refused
@@ -76,7 +76,7 @@ class BulletWorld:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(self.arm, Path(folder), visuals=visuals, disturbance=disturbance)
             self._body = self._load(description, Path(folder, "arm.urdf"))
-            self.levers = levers(ET.fromstring(description.text), self.arm.joint_names)
+            self.levers = levers(parsed(description.text), self.arm.joint_names)
             still = frozenset(map(description.in_engine, self.contact_rules.still))
             self.floor = floor_height(description.text, self.arm, self._around, still)
         self.inertia_repairs = description.repairs

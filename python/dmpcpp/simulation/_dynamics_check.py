@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
 import numpy as np
 
 from dmpcpp._core import Arm
-from dmpcpp.robot import links_beyond, random_postures
+from dmpcpp.robot import links_beyond, parsed, random_postures
 from dmpcpp.simulation._simulator import Simulator
 
 _POSTURES = 10
@@ -39,7 +38,7 @@ def dynamics_mismatch(engine: Simulator, arm: Arm) -> DynamicsMismatch:
 
 
 def _of_masses(engine: Simulator, arm: Arm) -> DynamicsMismatch:
-    robot = ET.fromstring(arm.urdf)
+    robot = parsed(arm.urdf)
     found = engine.masses()
     stated = {
         name: float(mass.get("value", 0.0))

@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib
 import importlib.metadata
 import tempfile
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from pathlib import Path
@@ -31,6 +30,7 @@ from dmpcpp.robot import (
     floor_height,
     levers,
     links_of,
+    parsed,
 )
 from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step, refused
@@ -94,7 +94,7 @@ class MuJoCo:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(arm, Path(folder), disturbance=disturbance, only_the_arm_moves=True)
             self._description = description
-            self.levers = levers(ET.fromstring(description.text), arm.joint_names)
+            self.levers = levers(parsed(description.text), arm.joint_names)
             still = frozenset(map(description.in_engine, self.contact_rules.still))
             self.floor = floor_height(description.text, arm, around, still)
             self._model = self._compile(description, obstacles)
