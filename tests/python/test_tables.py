@@ -370,3 +370,19 @@ def test_mend_times_is_the_old_name_of_sort_times(tmp_path):
     done = CliRunner().invoke(main, ["inspect", str(path), "--fixed-orientation", "--mend-times"])
     assert "--mend-times is --sort-times now" in done.output
     assert "--mend-times" not in CliRunner().invoke(main, ["inspect", "--help"]).output
+
+
+def test_a_number_in_all_of_a_position_is_asked_about_before_the_unit(tmp_path):
+    rows = [[k / 50, 0.01 * k, 0.2, 0.9, 0, 0, 0, 1] for k in range(60)]
+    for k in (20, 21, 22):
+        rows[k][1:4] = [-9999.0] * 3
+    path = tmp_path / "a.csv"
+    lines = ["time,x,y,z,qx,qy,qz,qw", *(",".join(map(str, row)) for row in rows)]
+    path.write_text("\n".join(lines))
+    with pytest.raises(
+        InvalidArgument, match=r"3 samples are -9999 in all three coordinates \(the first: 20\).*missing=-9999"
+    ):
+        recordings.load(path)
+    assert np.flatnonzero(recordings.load(path, missing=-9999.0).missing).tolist() == [20, 21, 22]
+    done = CliRunner().invoke(main, ["inspect", str(path)])
+    assert "--missing -9999" in done.output.replace("\n", " ")

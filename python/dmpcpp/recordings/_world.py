@@ -150,13 +150,26 @@ class Frame:
         axis = int(np.argmax(extent))
         largest = _LARGEST_EXTENT if self.world.unit is None else _FARTHEST
         if self.stated_unit is None and extent[axis] > largest:
-            raise self._too_far(axis, float(extent[axis]))
+            raise self._marked(points, largest) or self._too_far(axis, float(extent[axis]))
         if _AT_REST < extent[axis] < _LEAST_EXTENT:
             raise InvalidArgument(
                 f"position: {'xyz'[axis]} ranges over {extent[axis]:.3g} m only, less than {_LEAST_EXTENT:g}, taken as "
                 f"{_called(self.unit or 'm', 'm')}. State another unit, or if it is right the unit as a number of "
                 f"metres: unit={self.length:g}."
             )
+
+    def _marked(self, points: Array, largest: float) -> InvalidArgument | None:
+        """Return the error for one number in all coordinates of some points, without which the range is usual."""
+        flat = points.reshape(-1, 3)
+        alike = (flat == flat[:, :1]).all(axis=1) & (np.abs(flat[:, 0]) > largest)
+        mark = float(flat[np.argmax(alike), 0])
+        marked = alike & (flat[:, 0] == mark)
+        if not marked.any() or marked.all() or _extent(flat[~marked][:, None]).max() > largest:
+            return None
+        return InvalidArgument(
+            f"position: {int(marked.sum())} samples are {mark / self.length:.9g} in all three coordinates (the first: "
+            f"{int(np.argmax(marked))}). If this marks lost samples, specify missing={mark / self.length:.9g}."
+        )
 
     def _too_far(self, axis: int, extent: float) -> InvalidArgument:
         """Return the error for a range that no hand covers, with the units that would make it one."""
