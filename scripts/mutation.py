@@ -34,6 +34,10 @@ TESTS = {
     "primitive/rotation_system": ["orientation_dmp", "coupling", "run_refusals", "dmp_properties"],
     "primitive/runner.hpp": ["dmp", "coupling", "run_refusals", "pose_dmp", "realtime"],
     "primitive/fitting.hpp": ["dmp", "learning", "average", "pose_gripper_dmp", "orientation_dmp", "refusals"],
+    "primitive/rotation_space": ["orientation_dmp", "fit_report", "learning"],
+    "primitive/orientation_forms": ["orientation_dmp", "pose_gripper_dmp", "fit_report"],
+    "primitive/automatic_fit": ["learning", "dmp", "fit_report", "pose_dmp"],
+    "primitive/product_space.hpp": ["pose_gripper_dmp", "pose_dmp", "fit_report", "spread"],
     "primitive/primitive_bodies.hpp": ["dmp", "learning", "refusals", "run_refusals", "pose_gripper_dmp"],
 }
 

@@ -30,6 +30,7 @@ set(DMP_core_SOURCES
   primitive/rotation_system.cpp
   primitive/spring_damper.cpp
   primitive/turning_reference.cpp
+  primitive/turning_system.cpp
   primitive/vector_space.cpp
   primitive/vector_system.cpp
   spline/band_cholesky.cpp

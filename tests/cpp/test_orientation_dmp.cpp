@@ -352,3 +352,15 @@ TEST_CASE("several takes turn along with one rotation") {
         doctest::Approx(effort_of(OrientationDmp::fit(turn(370), stated()).rollout({}, {}, .004)).travel)
             .epsilon(.02));
 }
+
+TEST_CASE("scaled turns beyond 3 rad are learned in the log-linear form, on the principal branch never") {
+  DmpOptions options = stated();
+  options.scaling = Scaling::per_axis_relative;
+  const auto form_of = [&](double degrees) {
+    return OrientationDmp::fit(turn(degrees), options).options().orientation_form;
+  };
+  CHECK(form_of(150) == OrientationForm::ude);
+  CHECK(form_of(200) == OrientationForm::log_linear);
+  options.log_branch = LogBranch::principal;
+  CHECK(form_of(200) == OrientationForm::ude);
+}

@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 /// J_l(u)^-1 v up to the order that a fourth-order step needs; u is the turn within the step.
 Vector3d small_inverse_jacobian(const Vector3d& u, const Vector3d& v) noexcept {
@@ -46,33 +45,9 @@ RotationSystem::RotationSystem(const DmpOptions& options, const Ends<RotationSpa
   scale_.set(displacement_);
   follow_error();
   if (form_ != OrientationForm::turning) return;
-  DmpOptions of_p = options;
-  of_p.alpha = *options.orientation_alpha;
-  of_p.beta = options.orientation_beta;
-  const TurningReference reference(ends.reference);
-  const VectorXd zero = VectorXd::Zero(3);
-  turning_.emplace(Turning{reference, VectorSystem(of_p, {zero, zero, zero, zero, zero, {}}),
-                           reference.at(0.0).turn.conjugate(), reference.at(1.0).turn.conjugate()});
-  set_turning_goal(true);
-  begin_turning(q_, eta_);
-}
-
-/// p = Log(R Q^-1), p' = J_l(p)^-1 eta: Q stands still at the start.
-void RotationSystem::begin_turning(const Quaterniond& rotation, const Vector3d& eta) noexcept {
-  const Vector3d p = so3::log(Quaterniond(rotation * turning_->first));
-  const Vector3d z = so3::left_jacobian_inverse(p) * eta;
-  turning_->p.begin(p, z);
-}
-
-/// The goal of p, on the branch of the present one; back to the principal one where that leads far around.
-void RotationSystem::set_turning_goal(bool at_once) noexcept {
-  constexpr double kFarthest = 4.0;  // rad
-  const Quaterniond turn = goal_.target() * turning_->last;
-  const Vector3d present = turning_->p.goal();
-  Vector3d goal = at_once ? so3::log(turn) : so3::lifted_log(turn, present);
-  if (goal.norm() > kFarthest) goal = so3::log(turn);
-  if (at_once) return turning_->p.start_with_goal(goal);
-  turning_->p.set_goal(goal);
+  turning_.emplace(options, ends.reference);
+  turning_->start_with_goal(goal_.target());
+  turning_->begin(q_, eta_);
 }
 
 Vector3d RotationSystem::error(const Quaterniond& goal, const Quaterniond& q) const noexcept {
@@ -82,8 +57,8 @@ Vector3d RotationSystem::error(const Quaterniond& goal, const Quaterniond& q) co
 
 void RotationSystem::begin(const Eigen::Matrix3d& rotation, RotationSpace::TangentArgument eta) noexcept {
   if (turning_) {
-    set_turning_goal(true);
-    return begin_turning(unit_quaternion(rotation), eta);
+    turning_->start_with_goal(goal_.target());
+    return turning_->begin(unit_quaternion(rotation), eta);
   }
   start_ = unit_quaternion(rotation);
   q_ = start_;
@@ -95,13 +70,13 @@ void RotationSystem::begin(const Eigen::Matrix3d& rotation, RotationSpace::Tange
 
 void RotationSystem::set_goal(const Eigen::Matrix3d& goal) noexcept {
   goal_.set(unit_quaternion(goal));
-  if (turning_) return set_turning_goal(false);
+  if (turning_) return turning_->set_goal(goal_.target());
   if (goal_.settled()) jump_to_goal();
 }
 
 void RotationSystem::start_with_goal(const Eigen::Matrix3d& goal) noexcept {
   goal_.set(unit_quaternion(goal));
-  if (turning_) return set_turning_goal(true);
+  if (turning_) return turning_->start_with_goal(goal_.target());
   jump_to_goal();
 }
 
@@ -134,7 +109,7 @@ void RotationSystem::follow_error() noexcept {
 /// p'' for an angular acceleration in the world frame, but for terms of the velocity.
 void RotationSystem::to_drive(double* tangent) const noexcept {
   if (form_ == OrientationForm::ude) return;
-  const Vector3d p = turning_ ? Vector3d(turning_->p.point()) : Vector3d(-e_);
+  const Vector3d p = turning_ ? turning_->p() : Vector3d(-e_);
   Eigen::Map<Vector3d> c(tangent);
   c = so3::left_jacobian_inverse(p) * Vector3d(c);
 }
@@ -145,7 +120,7 @@ Vector3d RotationSystem::acceleration(const Vector3d& e, const Vector3d& eta,
 }
 
 void RotationSystem::advance(double step, const Nodes& drive) noexcept {
-  if (turning_) return turning_->p.advance(step, drive);
+  if (turning_) return turning_->advance(step, drive);
   if (integrator_ == Integrator::semi_implicit_euler) {
     advance_euler(step, drive.end);
   } else if (form_ == OrientationForm::log_linear) {
@@ -231,7 +206,11 @@ void RotationSystem::advance_euler(double step, const double* drive) noexcept {
 bool RotationSystem::compute_outputs(double speed, double speed_rate, const double* drive) noexcept {
   Vector3d change;
   if (turning_) {
-    change = follow_turning(drive);
+    const TurningSystem::State state = turning_->state(drive);
+    q_ = state.rotation;
+    renormalise(q_);
+    eta_ = state.eta;
+    change = state.eta_rate;
   } else if (form_ == OrientationForm::log_linear) {
     const ExponentialRates rates(-e_, turn_);
     eta_ = rates.velocity(z_);
@@ -245,25 +224,6 @@ bool RotationSystem::compute_outputs(double speed, double speed_rate, const doub
          next_.angular_acceleration.allFinite();
 }
 
-/// R, eta = J_l p' + Exp(p) omega_Q and its rate, omega_Q that of the reference.
-Vector3d RotationSystem::follow_turning(const double* drive) noexcept {
-  VectorSystem& system = turning_->p;
-  system.compute_outputs(1.0, 0.0, drive);
-  system.publish();
-  const Vector3d p = system.output().position;
-  const Vector3d v = system.output().velocity;
-  const Vector3d a = system.output().acceleration;
-  const TurningReference::State with = turning_->reference.at(phase_);
-  turn_ = so3::exp_quaternion(p);
-  const ExponentialRates rates(p, turn_);
-  const Vector3d own = rates.velocity(v);
-  const Vector3d along = turn_ * with.velocity;
-  eta_ = own + along;
-  q_ = turn_ * with.turn;
-  renormalise(q_);
-  return rates.acceleration(v, a) + turn_ * with.acceleration + own.cross(along);
-}
-
 void RotationSystem::publish() noexcept {
   outputs_.quaternion = q_;
   outputs_.angular_velocity = next_.angular_velocity;
@@ -271,19 +231,12 @@ void RotationSystem::publish() noexcept {
 }
 
 Eigen::Matrix3d RotationSystem::point() const noexcept {
-  if (!turning_) return q_.toRotationMatrix();
-  const Quaterniond turn = so3::exp_quaternion(Vector3d(turning_->p.point()));
-  return (turn * turning_->reference.at(phase_).turn).toRotationMatrix();
+  return turning_ ? turning_->rotation().toRotationMatrix() : q_.toRotationMatrix();
 }
 
 Vector3d RotationSystem::eta() const noexcept {
-  if (form_ == OrientationForm::ude) return eta_;
-  if (!turning_) return ExponentialRates(-e_, turn_).velocity(z_);
-  const Vector3d p = turning_->p.point();
-  const Quaterniond turn = so3::exp_quaternion(p);
-  Vector3d v;
-  turning_->p.velocity(1.0, v.data());
-  return ExponentialRates(p, turn).velocity(v) + turn * turning_->reference.at(phase_).velocity;
+  if (turning_) return turning_->eta();
+  return form_ == OrientationForm::ude ? eta_ : ExponentialRates(-e_, turn_).velocity(z_);
 }
 
 void RotationSystem::velocity(double speed, double* out) const noexcept {

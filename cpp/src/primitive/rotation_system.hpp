@@ -10,8 +10,7 @@
 #include "primitive/forcing_scale.hpp"
 #include "primitive/goal_filter.hpp"
 #include "primitive/spring_damper.hpp"
-#include "primitive/turning_reference.hpp"
-#include "primitive/vector_system.hpp"
+#include "primitive/turning_system.hpp"
 
 namespace dmp::detail {
 
@@ -30,7 +29,9 @@ class RotationSystem {
   void scale(double* forcing) const noexcept { scale_.apply(forcing); }
   void to_drive(double* tangent) const noexcept;
 
-  void set_phase(double s) noexcept { phase_ = s; }
+  void set_phase(double s) noexcept {
+    if (turning_) turning_->set_phase(s);
+  }
   void advance(double step, const Nodes& drive) noexcept;
   bool compute_outputs(double speed, double speed_rate, const double* drive) noexcept;
   void publish() noexcept;
@@ -41,17 +42,6 @@ class RotationSystem {
   void velocity(double speed, double* out) const noexcept;
 
  private:
-  /// p of R = Exp(p) Q(s), which moves as a vector does.
-  struct Turning {
-    TurningReference reference;
-    VectorSystem p;
-    Eigen::Quaterniond first;  // Q^-1 at the start
-    Eigen::Quaterniond last;   // and at the end
-  };
-
-  void begin_turning(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
-  void set_turning_goal(bool at_once) noexcept;
-  Eigen::Vector3d follow_turning(const double* drive) noexcept;
   Eigen::Vector3d eta() const noexcept;
   void jump_to_goal() noexcept;
   void rescale() noexcept;
@@ -69,8 +59,7 @@ class RotationSystem {
   Eigen::Vector3d acceleration(const Eigen::Vector3d& e, const Eigen::Vector3d& eta,
                                const double* drive) const noexcept;
 
-  std::optional<Turning> turning_;
-  double phase_ = 0.0;
+  std::optional<TurningSystem> turning_;  // in the turning form, which leaves e_ and z_ alone
   Integrator integrator_;
   OrientationForm form_;
   LogBranch branch_;
