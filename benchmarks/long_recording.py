@@ -68,4 +68,4 @@ def run(arguments: Sequence[str]) -> tuple[float, float, int]:
         command = [sys.executable, "-m", "dmpcpp", *arguments]
         pid = os.posix_spawn(sys.executable, command, os.environ, file_actions=quiet)
         _, status, used = os.wait4(pid, 0)
-    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0, os.waitstatus_to_exitcode(status)
+    return used.ru_utime + used.ru_stime, 1024 * used.ru_maxrss / 1e6, os.waitstatus_to_exitcode(status)

@@ -132,15 +132,19 @@ def read(path: Path, body: str | None, stated: Stated) -> Recording:
         stated = replace(stated, angle_unit=unit)  # type: ignore[arg-type]  # another unit is refused below
     position, rotation, notes = pose(table.cells, where, table.called, stated)
     sampled = table.sampling(stated)
+    notes = [*table.notes, *sampled.notes, *notes, *_told_up(table, body, stated), *_flagged(table, body)]
+    world = table.world(body, stated)
+    channels = {name: _channel(table, place) for name, place in table.channels.items()}
+    del table, keys  # the text of a long table takes as much memory as its numbers
     return sampled.stated.recording(
         time=sampled.time,
         position=position,
         rotation=rotation,
         body=body,
         source=path.name,
-        notes=[*table.notes, *sampled.notes, *notes, *_told_up(table, body, stated), *_flagged(table, body)],
-        world=table.world(body, stated),
-        channels={name: _channel(table, place) for name, place in table.channels.items()},
+        notes=notes,
+        world=world,
+        channels=channels,
     )
 
 
