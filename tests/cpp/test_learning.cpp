@@ -75,6 +75,42 @@ TEST_CASE(
   CHECK(weights == model.parameters().weights);
 }
 
+namespace {
+
+/// A reach whose positions have noise, while its orientation goes along the Euler path as far as `end`.
+PoseDemonstration noisy_reach(double noise, double end) {
+  const Demonstration way = reach(600, 2.0);
+  const OrientationDemonstration turns = rotation(600, 2.0, end);
+  Poses poses;
+  for (int k = 0; k < 600; ++k) {
+    const Eigen::Vector3d error(std::sin(7e3 * k), std::sin(8e3 * k), std::sin(9e3 * k));
+    poses.push_back(pose_of(turns.rotation()[static_cast<std::size_t>(k)],
+                            way.position().row(k).transpose() + noise * error));
+  }
+  return {way.time(), poses};
+}
+
+}  // namespace
+
+TEST_CASE("the orientation of a pose need not be closer than the noise of its positions lets these come") {
+  CHECK(OrientationDmp::fit(rotation(600, 2.0, 60.0)).options().basis_count == 200);
+  CHECK(PoseDmp::fit(noisy_reach(0.0, 60.0)).options().basis_count == 200);
+  CHECK(PoseDmp::fit(noisy_reach(1e-3, 60.0)).options().basis_count == 200);
+  CHECK(PoseDmp::fit(noisy_reach(5e-3, 60.0)).options().basis_count == 100);
+  CHECK(PoseDmp::fit(noisy_reach(5e-3, 20.0)).options().basis_count == 25);
+}
+
+TEST_CASE("kernels suffice for a quarter of the error that smoothing leaves") {
+  const Demonstration clean = helix(600, 2.0, .1, .2, 8);
+  CHECK(Dmp::fit(clean).options().basis_count == 100);
+  RowMatrix noisy = clean.position();
+  for (int k = 0; k < 600; ++k)
+    noisy.row(k) += 1e-3 * Eigen::RowVector3d(std::sin(7e3 * k), std::sin(8e3 * k), std::sin(9e3 * k));
+  const Dmp model = Dmp::fit(clean.with(noisy));
+  CHECK(model.options().derivatives == Derivatives::smooth);
+  CHECK(model.options().basis_count == 200);
+}
+
 TEST_CASE("targets of demonstrations with other ends carry the scale that a joint fit divides by") {
   DmpOptions options;
   options.scaling = Scaling::per_axis_relative;
