@@ -1,11 +1,11 @@
-"""A robot whose encoders read a little beyond a joint's limit is taken as it stands, and brought back."""
+"""Joints a little beyond their limits are taken and brought back; paths take the whole turns that leave most room."""
 
 import numpy as np
 import pytest
-from dmpcpp import InverseKinematics, JointTracker
+from dmpcpp import Arm, InverseKinematics, JointTracker
 from dmpcpp.errors import InvalidArgument
 
-from tests.python.small_arms import arm
+from tests.python.small_arms import arm, six_axis
 
 ARM = arm()
 MIDDLE = np.array([0.1, 0.3, 0.8, 0.1, 0.7, 0.1])
@@ -60,3 +60,38 @@ def test_the_number_of_joints_is_still_named():
     tracker = JointTracker(ARM, MIDDLE)
     with pytest.raises(InvalidArgument, match="joints: 5 values, expected 6 finite values"):
         tracker.joints = MIDDLE[:5]
+
+
+# ---- whole turns ------------------------------------------------------------------------------------------------
+
+
+def turning(kind, limit):
+    text = six_axis(limits={"j1": limit, "j4": limit, "j6": limit})
+    for name in ("j1", "j4", "j6"):
+        text = text.replace(f'<joint name="{name}" type="revolute">', f'<joint name="{name}" type="{kind}">')
+    return Arm.from_urdf(text, base="base", tip="l6")
+
+
+ENDLESS = turning("continuous", '<limit velocity="2" effort="80"/>')
+THREE_TURNS = turning("revolute", '<limit lower="-2" upper="17" velocity="2" effort="80"/>')
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_path_is_found_with_the_whole_turns_that_leave_the_most_room(seed):
+    random = np.random.default_rng(seed)
+    swept = np.linspace(0.0, 1.0, 50)[:, None] * random.uniform(-0.6, 0.6, 6) + MIDDLE + random.uniform(-0.4, 0.4, 6)
+    for robot, middle in ((ENDLESS, 0.0), (THREE_TURNS, 7.5)):
+        found = InverseKinematics(robot).follow(robot.forward_kinematics(swept), times=np.linspace(0.0, 3.0, 50))
+        assert found.report.complete
+        assert np.abs(robot.forward_kinematics(found.position) - robot.forward_kinematics(swept)).max() < 1e-5
+        ranges = 0.5 * (found.position.min(axis=0) + found.position.max(axis=0))
+        assert (np.abs(ranges[[0, 3, 5]] - middle) <= np.pi + 1e-9).all()
+        limits = np.minimum(found.position - robot.lower, robot.upper - found.position)
+        assert found.report.limit_margin == pytest.approx(limits.min())
+
+
+def test_a_path_from_where_the_robot_stands_keeps_its_turns():
+    stand = MIDDLE + [4 * np.pi, 0, 0, -6 * np.pi, 0, 2 * np.pi]
+    swept = np.linspace(0.0, 0.5, 30)[:, None] * np.ones(6) + MIDDLE
+    found = InverseKinematics(ENDLESS).follow(ENDLESS.forward_kinematics(swept), np.linspace(0.0, 2.0, 30), start=stand)
+    assert np.abs(found.position[0] - stand).max() < 1e-4

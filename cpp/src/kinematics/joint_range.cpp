@@ -47,6 +47,19 @@ Joints JointRange::nearest_winding(Joints q, const Joints& seed, const Joints& l
   return q;
 }
 
+void JointRange::wind_to_middle(std::vector<Joints>& path) const {
+  if (path.empty()) return;
+  Joints least = path.front(), most = path.front();
+  for (const Joints& q : path) {
+    least = least.cwiseMin(q);
+    most = most.cwiseMax(q);
+  }
+  const Joints centre = 0.5 * (least + most);
+  const Joints shift = nearest_winding(centre, middle(), lower + (centre - least), upper - (most - centre));
+  if (shift == centre) return;
+  for (Joints& q : path) q += shift - centre;
+}
+
 FiniteRange::FiniteRange(const Joints& lowest, const Joints& highest, const Joints& center)
     : lower(lowest), upper(highest) {
   for (Eigen::Index i = 0; i < lower.size(); ++i) {

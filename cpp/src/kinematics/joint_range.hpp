@@ -19,6 +19,9 @@ struct JointRange {
   double margin(const Joints& q) const;
   /// The windings of q that are nearest to `seed` in [lowest, highest].
   Joints nearest_winding(Joints q, const Joints& seed, const Joints& lowest, const Joints& highest) const;
+  /// Shifts a whole path by the whole turns of each joint that leave the most room to its limits, or that
+  /// bring it around middle() where it has none. Poses and steps stay.
+  void wind_to_middle(std::vector<Joints>& path) const;
 };
 
 /// [lower, upper], or half a turn around `center` of it where it is infinite or as good as that.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/pose.hpp"
 #include "kinematics/ik_solver.hpp"
@@ -97,6 +98,13 @@ double largest_step(const detail::Route& route) {
   return largest;
 }
 
+// A whole turn of a joint meets the same poses: the route may be any number of them away from the middle.
+void wind_to_middle(const detail::JointRange& range, detail::Route& route) {
+  range.wind_to_middle(route.joints);
+  route.margin = std::numeric_limits<double>::infinity();
+  for (const detail::Joints& q : route.joints) route.margin = std::min(route.margin, range.margin(q));
+}
+
 }  // namespace
 
 PathReport InverseKinematics::Solver::report(const detail::TargetPath& path, const detail::Route& route,
@@ -132,7 +140,8 @@ JointTrajectory InverseKinematics::follow(const Eigen::VectorXd& times, const Po
   const detail::Tolerances tolerances = {options.position_tolerance, options.angle_tolerance,
                                          solver_->search.lm().goal()};
   detail::RouteSearch routes(arm().model(), tolerances, options, solver_->options.random_seed);
-  const detail::Route route = routes.best(path);
+  detail::Route route = routes.best(path);
+  if (!options.start) wind_to_middle(solver_->search.range(), route);
   RowMatrix positions(times.size(), arm().joint_count());
   for (Eigen::Index k = 0; k < times.size(); ++k)
     positions.row(k) = route.joints[static_cast<std::size_t>(k)].transpose();
