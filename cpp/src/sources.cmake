@@ -63,6 +63,7 @@ set(DMP_kinematics_SOURCES
   robot/flat_chain.cpp
   robot/joint_spline.cpp
   robot/joint_trajectory.cpp
+  robot/kdl_chain.cpp
   robot/kdl_forward.cpp
   robot/tool_frame.cpp
   robot/urdf_chain.cpp
