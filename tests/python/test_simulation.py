@@ -240,9 +240,9 @@ def test_wrong_masses_are_caught_by_tracking_and_settling(panda):
     assert {"tracking_position_rmse", "tracking_position_max", "settle_error"} <= failed(log)
 
 
-def test_position_mode_is_blind_to_wrong_masses_as_its_caveat_says(panda):
+def test_position_mode_is_blind_to_wrong_masses_and_the_look_at_the_engine_is_not(panda):
     log = simulation.execute(panda, swing(panda), simulator=WrongMasses, mode="position")
-    assert log.verdict.ok
+    assert failed(log) == {"dynamics_mismatch"}
 
 
 def test_a_tool_that_is_not_where_the_arms_model_says_is_caught(panda):

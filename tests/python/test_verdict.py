@@ -81,7 +81,7 @@ def too_sudden():
 
 
 def too_jerky():
-    return run(arm=PANDA.with_limits(jerk=[30.0] * 7))
+    return run(arm=PANDA.with_limits(jerk=[1.0] * 7))
 
 
 def too_fast_a_tool():
