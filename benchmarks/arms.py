@@ -81,7 +81,6 @@ CASES = (
         POSITION,
     ),
     Case("al5d", "rtb-data:lynxmotion_al5d_description/urdf/al5d_robot.urdf", ("link4",), POSITION),
-    Case("px100", "clones:interbotix_ros_manipulators/px100.urdf", ("px100/ee_gripper_link",), POSITION),
     Case("tiago", "tiago", ("arm_tool_link",)),
     Case(
         "talos_left",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -36,19 +37,26 @@ class ClearOfItself:
     def __init__(self, arm: Arm, engine: Callable[..., Simulator]) -> None:
         """Nothing is loaded yet."""
         self._arm, self._engine, self._links = arm, engine, links_of(arm)
+        self._world: Simulator | None = None
         self.refused: Counter[tuple[str, str]] = Counter()
         self.tested = 0
 
     def __call__(self, joints: JointTrajectory) -> bool:
         """Whether these keep clear."""
         self.tested += 1
-        with self._engine(self._arm, 1e-3) as world:
-            near = simulation.nearest_along(world, joints.position, self._links, simulation.CLEAR)
+        near = simulation.nearest_along(self._open(), joints.position, self._links, simulation.CLEAR)
         close = [one.clearance for one in near.values() if one.clearance.distance < simulation.CLEAR]
         if close:
             nearest = min(close, key=lambda one: one.distance)
             self.refused[nearest.link, nearest.other] += 1
         return not close
+
+    def _open(self) -> Simulator:
+        """Load the arm at the first path; a search tries hundreds. It is freed with this test."""
+        if self._world is None:
+            self._world = self._engine(self._arm, 1e-3).__enter__()
+            weakref.finalize(self, self._world.__exit__)
+        return self._world
 
     def describe(self) -> str:
         """Return which pairs came closer than 2 mm, and on how many of the paths; "" without any."""
