@@ -364,3 +364,36 @@ TEST_CASE("scaled turns beyond 3 rad are learned in the log-linear form, on the 
   options.log_branch = LogBranch::principal;
   CHECK(form_of(200) == OrientationForm::ude);
 }
+
+TEST_CASE("a goal that is set on the way of a turning run is met, and counts at once for a new start") {
+  const OrientationDmp dmp = OrientationDmp::fit(turn(370), stated());
+  const Eigen::Matrix3d goal = so3::exp({.3, -.6, .2}) * dmp.goal();
+  OrientationRun run(dmp);
+  for (int k = 0; k < 300; ++k) run.step(.01);
+  run.set_goal(goal);
+  OrientationRun fresh(dmp);
+  fresh.set_goal(goal);
+  OrientationRun again(run);
+  for (int k = 0; k < 700; ++k) run.step(.01);
+  CHECK(so3::distance(run.rotation(), goal) < 1e-6);
+  again.start_from(dmp.start(), Vector3d::Zero());
+  fresh.start_from(dmp.start(), Vector3d::Zero());
+  for (int k = 0; k < 100; ++k) {
+    again.step(.01);
+    fresh.step(.01);
+  }
+  CHECK(again.rotation() == fresh.rotation());
+}
+
+TEST_CASE("a turning form rests where its own spring balances a push") {
+  DmpOptions options = stated();
+  options.orientation_alpha = 20.0;
+  options.orientation_beta = 3.0;
+  options.orientation_form = OrientationForm::turning;
+  const OrientationDmp dmp = OrientationDmp::fit(turn(370), options);
+  OrientationRun run(dmp);
+  const Vector3d push(0.0, 0.0, 6.0);
+  for (int k = 0; k < 4000; ++k)
+    run.step(.01, [&](const CouplingState<RotationSpace>&) noexcept { return push; });
+  CHECK(so3::distance(run.rotation(), dmp.goal()) == doctest::Approx(6.0 / (20.0 * 3.0)).epsilon(1e-6));
+}
