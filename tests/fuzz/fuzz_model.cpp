@@ -9,9 +9,10 @@
 
 namespace {
 
-void run(const dmp::Dmp& model) { dmp::Run(model).step(1e-3 * model.duration()); }
-void run(const dmp::OrientationDmp& model) { dmp::OrientationRun(model).step(1e-3 * model.duration()); }
-void run(const dmp::PoseDmp& model) { dmp::PoseRun(model).step(1e-3 * model.duration()); }
+template <class Space>
+void run(const dmp::Primitive<Space>& model) {
+  dmp::Stepper<Space>(model).step(1e-3 * model.duration());
+}
 
 }  // namespace
 
