@@ -121,16 +121,21 @@ def turns() -> list[Figure]:
 
 
 def goals() -> list[Figure]:
-    """A reach of 0.4 m led to a goal at half the way: how far it goes back first, and how it starts."""
+    """A reach of 0.4 m led to a goal at half the way, by each scaling that suits it: how far it goes back first, and
+    how it starts."""
+    return [figure for scaling in ("none", "advance") for figure in _led_back(scaling)]
+
+
+def _led_back(scaling: str) -> list[Figure]:
     time = np.linspace(0.0, 2.0, 401)
     truth = minimum_jerk(time / 2.0)[:, None] * [0.4, 0.0, 0.0]
-    model = Dmp.fit(Demonstration(time, truth))
+    model = Dmp.fit(Demonstration(time, truth), scaling=scaling)
     moved = model.rollout(goal=np.array([0.2, 0.0, 0.0]), dt=1e-3)
     peak = np.abs(model.rollout(dt=1e-3).acceleration).max()
     start = float(np.linalg.norm(moved.acceleration[0]) / peak)
     return [
         Figure(
-            "reach to half the way: back beyond the demonstration",
+            f"reach to half the way, scaling {scaling}: back beyond the demonstration",
             float(1e3 * max(0.0, -moved.position.min())),
             0.1,
             "mm",

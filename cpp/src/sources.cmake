@@ -9,6 +9,7 @@ set(DMP_core_SOURCES
   model_file/model_json.cpp
   motion/demonstration.cpp
   motion/dtw.cpp
+  primitive/advance.cpp
   primitive/automatic_fit.cpp
   primitive/average.cpp
   primitive/basis.cpp

@@ -86,8 +86,9 @@ is none.)")
           "(n,) rad/s or m/s, of the last step.")
       .def_property_readonly("position_error", &JointTracker::position_error, "m, of the last step, by KDL.")
       .def_property_readonly("angle_error", &JointTracker::angle_error, "rad, of the last step, by KDL.")
-      .def_property_readonly("limit_excess", &JointTracker::limit_excess,
-                             "rad or m: how far the joints that were given last lay beyond a limit; 0 within.")
+      .def_property_readonly(
+          "limit_excess", &JointTracker::limit_excess,
+          "rad or m: how far the joints that were given last lay beyond a limit; 0 within.")
       .def_property_readonly("arm", &JointTracker::arm)
       .def_property_readonly("options", [](const JointTracker& t) { return t.options(); })
       .def("__copy__", [](const JointTracker& t) { return JointTracker(t); })

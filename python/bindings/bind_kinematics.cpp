@@ -171,8 +171,9 @@ Raises InvalidArgument unless it is a pose.)")
                              "(n,) rad/s or m/s; inf where nobody states one.")
       .def_property_readonly("effort_limit", vector_of(&Arm::effort_limit),
                              "(n,) N m or N; inf where nobody states one.")
-      .def_property_readonly("acceleration_limit", vector_of(&Arm::acceleration_limit),
-                             "(n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF 1.0 cannot.")
+      .def_property_readonly(
+          "acceleration_limit", vector_of(&Arm::acceleration_limit),
+          "(n,) rad/s^2 or m/s^2; 10 is assumed where nobody states one: a URDF 1.0 cannot.")
       .def_property_readonly("jerk_limit", vector_of(&Arm::jerk_limit),
                              "(n,) rad/s^3 or m/s^3; inf where nobody states one.")
       .def_property_readonly("tool_speed_limit", &Arm::tool_speed_limit,
@@ -228,7 +229,8 @@ to tip stand in the middle of their range. Raises InvalidArgument for other size
             const RowMatrix row = to_vector(q, "q").transpose();
             return from_vector(arm.gravity_effort(row).row(0).transpose());
           },
-          py::arg("q"), "N m or N that hold the arm still at joints (n,), or (T, n) at joints (T, n), by KDL.")
+          py::arg("q"),
+          "N m or N that hold the arm still at joints (n,), or (T, n) at joints (T, n), by KDL.")
       .def(py::pickle(&arm_state, &arm_of_state))
       .def("__repr__", [](const Arm& arm) {
         return "<Arm '" + arm.name() + "': " + std::to_string(arm.joint_count()) + " joints from '" +

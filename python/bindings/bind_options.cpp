@@ -42,7 +42,8 @@ void bind_enum(py::module_& m, const char* name, const char* doc) {
 void bind_enums(py::module_& m) {
   bind_enum<Kernels>(m, "Kernels", "How the kernels lie over the phase.");
   bind_enum<Regression>(m, "Regression", "How the weights are found.");
-  bind_enum<Scaling>(m, "Scaling", "By what the forcing term is multiplied when start and goal change.");
+  bind_enum<Scaling>(m, "Scaling",
+                     "How the forcing term follows when start and goal change; automatic: advance.");
   bind_enum<OrientationForm>(m, "OrientationForm", "The equation of motion of orientations.");
   bind_enum<LogBranch>(m, "LogBranch", "Log(Rg R^T) followed through pi, or the shortest rotation.");
   bind_enum<Derivatives>(m, "Derivatives", "Velocities and accelerations of a demonstration.");

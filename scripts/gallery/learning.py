@@ -12,6 +12,7 @@ from scripts.gallery.look import (
     BLUE,
     GREEN,
     ORANGE,
+    PINK,
     RED,
     SKY,
     STROKES,
@@ -94,6 +95,7 @@ def scaling() -> Any:
     """What each scaling makes of a goal that is turned, and of one twice as far."""
     page, cells = columns(2, height=3.8)
     names = {
+        "advance": "advance",
         "none": "none (default)",
         "per_axis": "per axis (the source)",
         "rotation_dilation": "rotation and dilation",
@@ -103,7 +105,7 @@ def scaling() -> Any:
     turned = plane[-1] @ np.array([[0.5, np.sqrt(0.75)], [-np.sqrt(0.75), 0.5]])
     for axes, goal, title in zip(cells, (turned, 2 * plane[-1]), ("turned by 60°", "twice as far"), strict=True):
         axes.plot(*plane[::8].T, "o", color=ORANGE, markersize=3.6, label="demonstrated")
-        for (name, said), colour, stroke in zip(names.items(), (BLUE, RED, GREEN), STROKES, strict=False):
+        for (name, said), colour, stroke in zip(names.items(), (BLUE, PINK, RED, GREEN), STROKES, strict=False):
             path = model[name].rollout(goal, dt=0.01).position
             axes.plot(*path.T, color=colour, linestyle=stroke, label=said)
         axes.plot(*goal, "s", color="#1A1A1A", markersize=5, label="goal")

@@ -189,7 +189,9 @@ TEST_CASE("per-axis scaling: the path scales with the goal, mirrored too; withou
     const Dmp scaled = Dmp::fit(demonstration, options);
     const RowMatrix expected = k * scaled.rollout({}, {}, .01).position;
     CHECK(largest(scaled.rollout(goal, {}, .01).position, expected) < 1e-12);
-    const Dmp plain = Dmp::fit(demonstration);
+    options.scaling = Scaling::none;
+    const Dmp plain = Dmp::fit(demonstration, options);
+    options.scaling = Scaling::per_axis;
     CHECK(largest(plain.rollout(goal, {}, .01).position, expected) > 1e-3);
   }
 }
@@ -216,7 +218,7 @@ TEST_CASE("a closed loop whose goal moves keeps its size, unless (g - y0) scales
     y.row(k) << .1 * std::sin(m), .1 * std::cos(m) + .001 * minimum_jerk(t[k] / 2.0);
   }
   const Demonstration loop(t, y);
-  for (const Scaling scaling : {Scaling::none, Scaling::per_axis_relative}) {
+  for (const Scaling scaling : {Scaling::none, Scaling::per_axis_relative, Scaling::advance}) {
     DmpOptions options;
     options.scaling = scaling;
     const Dmp dmp = Dmp::fit(loop, options);
@@ -295,8 +297,8 @@ TEST_CASE("a goal that changes on the way is reached without a jump of the accel
 TEST_CASE(
     "whatever scales the forcing term, a new goal makes no jump, and before the first step it counts at "
     "once") {
-  for (const Scaling scaling :
-       {Scaling::none, Scaling::per_axis, Scaling::per_axis_relative, Scaling::rotation_dilation}) {
+  for (const Scaling scaling : {Scaling::none, Scaling::per_axis, Scaling::per_axis_relative,
+                                Scaling::rotation_dilation, Scaling::advance}) {
     DmpOptions options;
     options.scaling = scaling;
     const Dmp dmp = Dmp::fit(reach(300, 2.0), options);

@@ -101,7 +101,9 @@ TEST_CASE("a model that turns along is a file of version 2 and comes back bit fo
 }
 
 TEST_CASE("what is no model of this version is refused with the place") {
-  const std::string text = to_json(Dmp::fit(reach(100, 1.0), stated()));
+  DmpOptions options = stated();
+  options.scaling = Scaling::none;  // version 1
+  const std::string text = to_json(Dmp::fit(reach(100, 1.0), options));
   const auto refused = [](const std::string& bad, const char* reason) {
     CHECK_THROWS_WITH_AS(from_json(bad), doctest::Contains(reason), InvalidArgument);
   };

@@ -110,7 +110,7 @@ TEST_CASE("every option has a name of its own, and so has every value of an enum
   };
   CHECK(complete(Kernels::source));
   CHECK(complete(Regression::automatic));
-  CHECK(complete(Scaling::rotation_dilation));
+  CHECK(complete(Scaling::automatic));
   CHECK(complete(OrientationForm::turning));
   CHECK(complete(LogBranch::principal));
   CHECK(complete(Derivatives::automatic));

@@ -133,6 +133,7 @@ TEST_CASE(
   OrientationDmpParameters p = OrientationDmp::fit(rotation(300, 2.0, 3.0)).parameters();
   CHECK(difference(OrientationDmp(p)) > 1e-2);
   p.weights.setZero();
+  p.advance.setZero();
   CHECK(difference(OrientationDmp(p)) < 1e-12);
 }
 

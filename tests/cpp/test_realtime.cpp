@@ -182,7 +182,7 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
       {"basis", "activations gate proportional"},
       {"dmp", "acceleration position velocity"},
       {"forcing", "evaluate evaluate"},
-      {"joint_tracker", "angle_error joints position_error set_joints track velocity"},
+      {"joint_tracker", "angle_error joints limit_excess position_error set_joints track velocity"},
       {"mailbox", "post take"},
       {"orientation_dmp", "angular_acceleration angular_velocity quaternion rotation"},
       {"phase",

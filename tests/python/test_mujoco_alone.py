@@ -101,5 +101,5 @@ def test_a_urdf_that_it_cannot_read_is_refused_with_its_reason(tmp_path):
     geometry = '<collision><geometry><mesh filename="rod.dae"/></geometry></collision></link>'
     path = tmp_path / "pendulum.urdf"
     path.write_text(PENDULUM.format(ixx=0.02).replace("</inertial></link>", f"</inertial>{geometry}"))
-    with pytest.raises(InvalidArgument, match=r"arm\.urdf: MuJoCo cannot load"):
+    with pytest.raises(InvalidArgument, match=r"rod\.dae' cannot be read as a mesh.*Convert it"):
         MuJoCo(Arm.from_urdf_file(str(path)), 1e-3)

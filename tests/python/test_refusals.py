@@ -84,6 +84,12 @@ ENTRIES: dict[str, Entry] = {
     "Arm.forward_kinematics": (ARM.forward_kinematics, {"q": JOINTS}),
     "Arm.jacobian": (ARM.jacobian, {"q": JOINTS}),
     "Arm.manipulability": (ARM.manipulability, {"q": JOINTS}),
+    "Arm.gravity_effort": (ARM.gravity_effort, {"q": JOINTS}),
+    "Arm.inverse_dynamics": (
+        ARM.inverse_dynamics,
+        {"q": JOINTS, "velocity": np.ones(2), "acceleration": np.ones(2)},
+    ),
+    "Arm.with_tool": (lambda frame: ARM.with_tool(frame).forward_kinematics(JOINTS), {"frame": REACHED}),
     "Arm.with_limits": (
         ARM.with_limits,
         {"lower": -JOINTS, "upper": 3 * JOINTS, "velocity": JOINTS, "effort": JOINTS},

@@ -32,7 +32,7 @@ WRONG = {
     "kernels in words": ((*FIT, "--basis-count", "many"), "--basis-count", "many", "integer"),
     "a scale in words": ((*FIT, "--arm", "panda", "--scale", "big"), "--scale", "big", "such as 0.5"),
     "a scale for no arm": ((*FIT, "--scale", "0.5"), "--scale", "without --arm", "State --arm"),
-    "an arm unheard of": ((*PLAN, "--arm", "ur99"), "arm", "ur99", "panda"),
+    "an arm unheard of": ((*PLAN, "--arm", "ur99"), "arm", "ur99", "dmpcpp arms"),
     "an arm with links that it has": ((*PLAN, "--tip", "hand"), "tip", "panda", ".urdf"),
     "a URDF that is not there": ((*PLAN, "--arm", "no.urdf"), "no.urdf", "no.urdf", "cannot"),
     "a link that is not there": (("check-urdf", "arm.urdf", "--tip", "nose"), "nose", "nose", ""),

@@ -18,16 +18,21 @@ struct DMP_EXPORT DmpParameters {
   Eigen::VectorXd start_velocity;  ///< (d) per s, at `duration`
   Eigen::VectorXd amplitude;       ///< (d) range that the demonstration covered, axis by axis
   RowMatrix weights;               ///< (N x d) of the forcing term
+  /// (N x 1) of Scaling::advance: weights of the forcing term that takes an offset from 0 to 1 as the
+  /// demonstration advances. Empty in the other scalings.
+  RowMatrix advance;
 
-  /// Every field beside the options, by its name in a model file.
+  /// Every field beside the options and those that may be empty, by its name in a model file.
   static constexpr auto fields() {
     return std::make_tuple(
         std::pair("duration", &DmpParameters::duration), std::pair("start", &DmpParameters::start),
         std::pair("goal", &DmpParameters::goal), std::pair("start_velocity", &DmpParameters::start_velocity),
         std::pair("amplitude", &DmpParameters::amplitude), std::pair("weights", &DmpParameters::weights));
   }
-  /// Fields that may be empty, which a model file leaves out then: none.
-  static constexpr std::tuple<> optional_fields() { return {}; }
+  /// Fields that may be empty, which a model file leaves out then.
+  static constexpr auto optional_fields() {
+    return std::make_tuple(std::pair("advance", &DmpParameters::advance));
+  }
 };
 
 /// R^d: positions, or any other values over time, such as joints.

@@ -17,12 +17,18 @@ enum class Kernels { equal_in_time, source };
 /// automatic: ridge; lwr where `passes` is stated, the kernels are the source's or there are more than 4000.
 enum class Regression { lwr, ridge, automatic };
 
-/// By what the forcing term is multiplied when start and goal change.
+/// How the forcing term follows when start and goal change.
 enum class Scaling {
-  none,               ///< nothing: the shape stays, the spring carries it to the goal
+  none,               ///< not at all: the spring alone carries the motion to the goal; the default
   per_axis,           ///< (g - y0), axis by axis (Ijspeert et al. 2013)
   per_axis_relative,  ///< (g - y0) / (g - y0) of the demonstration; an axis that did not move keeps 1
-  rotation_dilation  ///< the rotation and dilation of g - y0 against the demonstration's (Ginesi et al. 2021)
+  rotation_dilation,  ///< the rotation and dilation of g - y0 against the demonstration's (Ginesi et al.
+                      ///< 2021)
+  /// A term is added that takes the motion to its new start and goal as the demonstration itself advances: at
+  /// rest where it rests, without going back. Linear and bounded for every start and goal.
+  /// docs/formulation.md, "New starts and goals".
+  advance,
+  automatic  ///< advance
 };
 
 /// The equation of motion of orientations; see OrientationDmp.
@@ -62,7 +68,9 @@ inline const Names<Scaling>& names_of(Scaling) {
   static const Names<Scaling> names{{Scaling::none, "none"},
                                     {Scaling::per_axis, "per_axis"},
                                     {Scaling::per_axis_relative, "per_axis_relative"},
-                                    {Scaling::rotation_dilation, "rotation_dilation"}};
+                                    {Scaling::rotation_dilation, "rotation_dilation"},
+                                    {Scaling::advance, "advance"},
+                                    {Scaling::automatic, "automatic"}};
   return names;
 }
 inline const Names<OrientationForm>& names_of(OrientationForm) {

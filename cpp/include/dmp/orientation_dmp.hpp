@@ -24,6 +24,9 @@ struct DMP_EXPORT OrientationDmpParameters {
   /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans
   /// of the phase that turns along, the first and the last three times. Empty in the other forms.
   RowMatrix reference;
+  /// (N x 1) of Scaling::advance: weights of the forcing term that takes an offset from 0 to 1 as the
+  /// demonstration advances. Empty in the other scalings.
+  RowMatrix advance;
 
   /// Every field beside the options and those that may be empty, by its name in a model file.
   static constexpr auto fields() {
@@ -35,7 +38,8 @@ struct DMP_EXPORT OrientationDmpParameters {
   }
   /// Fields that may be empty, which a model file leaves out then.
   static constexpr auto optional_fields() {
-    return std::make_tuple(std::pair("reference", &OrientationDmpParameters::reference));
+    return std::make_tuple(std::pair("reference", &OrientationDmpParameters::reference),
+                           std::pair("advance", &OrientationDmpParameters::advance));
   }
 };
 

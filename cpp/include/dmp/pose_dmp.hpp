@@ -23,6 +23,9 @@ struct DMP_EXPORT PoseDmpParameters {
   /// (M + 1 x 4) w x y z, of OrientationForm::turning: coefficients of the quintic B-spline on M equal spans
   /// of the phase that turns along, the first and the last three times. Empty in the other forms.
   RowMatrix reference;
+  /// (N x 2) of Scaling::advance: weights of the forcing term that takes the offset of the position and that
+  /// of the orientation from 0 to 1 as the demonstration advances. Empty in the other scalings.
+  RowMatrix advance;
 
   /// Every field beside the options and those that may be empty, by its name in a model file.
   static constexpr auto fields() {
@@ -34,7 +37,8 @@ struct DMP_EXPORT PoseDmpParameters {
   }
   /// Fields that may be empty, which a model file leaves out then.
   static constexpr auto optional_fields() {
-    return std::make_tuple(std::pair("reference", &PoseDmpParameters::reference));
+    return std::make_tuple(std::pair("reference", &PoseDmpParameters::reference),
+                           std::pair("advance", &PoseDmpParameters::advance));
   }
 };
 

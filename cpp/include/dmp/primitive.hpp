@@ -68,6 +68,8 @@ class DMP_EXPORT Primitive {
 
   const Parameters& parameters() const noexcept;
   const ForcingTerm& forcing() const noexcept;
+  /// What a run goes by: the same and, behind its axes, a column of Parameters::advance for each part.
+  const ForcingTerm& forcing_of_run() const noexcept;
   const DmpOptions& options() const noexcept { return parameters().options; }
   double duration() const noexcept { return parameters().duration; }  ///< s, of the demonstration
   const Point& start() const noexcept { return parameters().start; }

@@ -69,6 +69,9 @@ struct DMP_EXPORT ProductParameters {
   /// (M + 1 x 4), of OrientationForm::turning, as of PoseDmpParameters. Empty in the other forms, and in
   /// spaces of other than one rotation.
   RowMatrix reference;
+  /// (N x parts) of Scaling::advance: weights of the forcing term that takes the offset of each part from 0
+  /// to 1 as the demonstration advances. Empty in the other scalings.
+  RowMatrix advance;
 
   /// Every field beside the options and those that may be empty, by its name in a model file.
   static constexpr auto fields() {
@@ -80,7 +83,8 @@ struct DMP_EXPORT ProductParameters {
   }
   /// Fields that may be empty, which a model file leaves out then.
   static constexpr auto optional_fields() {
-    return std::make_tuple(std::pair("reference", &ProductParameters::reference));
+    return std::make_tuple(std::pair("reference", &ProductParameters::reference),
+                           std::pair("advance", &ProductParameters::advance));
   }
 };
 

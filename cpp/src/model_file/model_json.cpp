@@ -135,7 +135,9 @@ Json model_to_json(const Model& model) {
 void require_readable(const Model& model) {
   const RowMatrix& weights =
       std::visit([](const auto& kind) -> const RowMatrix& { return kind.parameters().weights; }, model);
-  const auto numbers = static_cast<std::size_t>(weights.size() + 4 * weights.cols() + 100);
+  const Eigen::Index advance =
+      std::visit([](const auto& kind) { return kind.parameters().advance.size(); }, model);
+  const auto numbers = static_cast<std::size_t>(weights.size() + advance + 4 * weights.cols() + 100);
   if (numbers > kMostNumbers)
     throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " x " +
                           std::to_string(weights.cols()) +

@@ -41,15 +41,25 @@ Primitive<Space> average(const std::vector<Primitive<Space>>& models) {
   detail::require_alike(models);
   const RowMatrix& first = models[0].parameters().weights;
   RowMatrix weights = RowMatrix::Zero(first.rows(), first.cols());
+  RowMatrix advance =
+      RowMatrix::Zero(models[0].parameters().advance.rows(), models[0].parameters().advance.cols());
   detail::Motions<Space> motions;
   for (const Primitive<Space>& model : models) {
     motions.durations.push_back(model.duration());
     motions.ends.push_back(detail::Geometry<Space>::ends_of(model.parameters()));
     weights += 1.0 / static_cast<double>(models.size()) * model.parameters().weights;
+    advance += 1.0 / static_cast<double>(models.size()) * model.parameters().advance;
   }
   detail::require_one_reference(motions.ends);
   typename Space::Parameters mean = detail::mean_of<Space>(motions, models[0].options());
+  // As where the demonstrations are learned together: what advances with the difference of their ways is no
+  // part of what the mean goes by.
+  const Eigen::VectorXd displacement = detail::Geometry<Space>::ends_of(mean).displacement;
+  for (std::size_t j = 0; j < models.size(); ++j)
+    detail::take_out_advance<Space>(weights, 1.0 / static_cast<double>(models.size()),
+                                    models[j].parameters().advance, motions.ends[j], displacement);
   mean.weights = weights;
+  mean.advance = advance;
   return Primitive<Space>(mean);
 }
 

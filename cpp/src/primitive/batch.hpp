@@ -22,11 +22,10 @@ class OneByOne {
     if (options.automatic()) return detail::fit<Space>({&demonstration}, options, {});
     LearningTask<Space> task = task_of<Space>({&demonstration}, options);
     const DmpOptions& decided = task.parameters.options;
-    const Eigen::Index axes = task.targets.front().value.cols();
-    if (!memory_ || memory_->dimension() != axes)
-      memory_ = std::make_unique<ForcingFit>(basis_of(decided), decided, axes);
-    task.parameters.weights = memory_->weights(task.targets);
-    return Primitive<Space>(task.parameters);
+    const Eigen::Index columns = columns_of(task);
+    if (!memory_ || memory_->dimension() != columns)
+      memory_ = std::make_unique<ForcingFit>(basis_of(decided), decided, columns);
+    return Primitive<Space>(detail::learned(std::move(task), *memory_));
   }
 
  private:

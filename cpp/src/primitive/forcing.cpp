@@ -110,6 +110,10 @@ void ForcingTerm::evaluate(double s, double next, double* psi, double* f, double
         return evaluate_equal_in_time<7>(s, next, f, f_next);
       case 8:
         return evaluate_equal_in_time<8>(s, next, f, f_next);
+      case 9:
+        return evaluate_equal_in_time<9>(s, next, f, f_next);
+      case 10:
+        return evaluate_equal_in_time<10>(s, next, f, f_next);
     }
   }
   evaluate_window(s, psi, f);

@@ -8,6 +8,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double kRounding = 1e-14;  // of a displacement: a logarithm anew
+
 /// A unit vector orthogonal to the unit vector a (Gram-Schmidt on the axis that a has least of).
 VectorXd orthogonal_to(const VectorXd& a) {
   if (a.size() < 2) return VectorXd::Zero(a.size());
@@ -38,6 +40,11 @@ ForcingScale::ForcingScale(Scaling scaling, const VectorXd& demonstrated, const 
 void ForcingScale::set(const Eigen::Ref<const VectorXd>& displacement) noexcept {
   switch (scaling_) {
     case Scaling::none:
+    case Scaling::automatic:
+      return;
+    case Scaling::advance:
+      factor_ = displacement - demonstrated_;
+      is_offset_ = factor_.norm() > kRounding * (1.0 + demonstrated_.norm());
       return;
     case Scaling::per_axis:
       factor_ = displacement;
@@ -63,9 +70,13 @@ void ForcingScale::set_rotation(const Eigen::Ref<const VectorXd>& displacement) 
   opposite_ = from_.dot(to_) < -1.0 + 1e-12;
 }
 
-void ForcingScale::apply(double* f) const noexcept {
+void ForcingScale::apply(double* f, const double* advance) const noexcept {
   Eigen::Map<VectorXd> force(f, factor_.size());
-  if (scaling_ == Scaling::none) return;
+  if (is_one()) return;
+  if (scaling_ == Scaling::advance) {
+    force += *advance * factor_;
+    return;
+  }
   if (scaling_ != Scaling::rotation_dilation) {
     force.array() *= factor_.array();
     return;

@@ -6,7 +6,7 @@
 
 namespace dmp::detail {
 
-/// What the forcing term is multiplied by, from where a run starts and goes compared with the demonstration.
+/// What becomes of the forcing term, from where a run starts and goes compared with the demonstration.
 class ForcingScale {
  public:
   /// demonstrated (d): goal - start of the demonstration; amplitude (d): the range it covered, axis by axis.
@@ -15,9 +15,11 @@ class ForcingScale {
   /// displacement (d): goal - start of the run. No allocation.
   void set(const Eigen::Ref<const Eigen::VectorXd>& displacement) noexcept;
   /// Whether apply leaves every f as it is.
-  bool is_one() const noexcept { return scaling_ == Scaling::none; }
-  /// f (d) in place.
-  void apply(double* f) const noexcept;
+  bool is_one() const noexcept { return is_fixed() || (scaling_ == Scaling::advance && !is_offset_); }
+  /// The same for every displacement.
+  bool is_fixed() const noexcept { return scaling_ == Scaling::none; }
+  /// f (d) in place; `advance`, for Scaling::advance: the forcing term of what goes from 0 to 1.
+  void apply(double* f, const double* advance = nullptr) const noexcept;
 
  private:
   void set_rotation(const Eigen::Ref<const Eigen::VectorXd>& displacement) noexcept;
@@ -25,7 +27,8 @@ class ForcingScale {
   Scaling scaling_;
   Eigen::VectorXd demonstrated_;
   Eigen::VectorXd amplitude_;
-  Eigen::VectorXd factor_;  // per axis
+  Eigen::VectorXd factor_;  // per axis: what f is multiplied by, or the offset that advances
+  bool is_offset_ = false;
   bool rotates_ = false;
   double dilation_ = 1.0;
   Eigen::VectorXd from_;  // unit vectors of the minimal rotation

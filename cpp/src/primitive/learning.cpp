@@ -54,7 +54,7 @@ RowMatrix gradient(const VectorXd& t, const RowMatrix& y) {
 
 void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacement,
                    const VectorXd& reference, const VectorXd& amplitude, const DmpOptions& options) {
-  if (options.scaling == Scaling::none) return;
+  if (options.scaling == Scaling::none || options.scaling == Scaling::advance) return;
   const Index axes = displacement.size();
   if (options.scaling == Scaling::per_axis) require_displacement(displacement, amplitude);
   if (options.scaling != Scaling::rotation_dilation) {

@@ -69,10 +69,12 @@ DmpOptions DmpOptions::resolved() const {
   detail::visit_options(EnumeratorCheck{}, *this);
   if (basis_count != 0) require_whole(basis_count, 100000, "basis_count", " kernels");
   require_whole(passes, 10000, "passes", "");
-  if (orientation_form == OrientationForm::turning && scaling != Scaling::none)
+  const bool multiplies =
+      scaling != Scaling::none && scaling != Scaling::advance && scaling != Scaling::automatic;
+  if (orientation_form == OrientationForm::turning && multiplies)
     throw InvalidArgument(
         "options.scaling: OrientationForm::turning has no way from start to goal to scale by, expected "
-        "none.");
+        "advance or none.");
   result.beta = beta.value_or(alpha / 4.0);
   result.orientation_alpha = orientation_alpha.value_or(alpha);
   result.orientation_beta =

@@ -50,8 +50,8 @@ Decision decide_automatically(const DmpOptions& options, const Demonstrations<Ro
                               bool may_turn) {
   Decision decision{options, {}};
   const double largest = largest_log_of(together, options);
-  const bool can_turn =
-      may_turn && options.log_branch == LogBranch::lifted && options.scaling == Scaling::none;
+  const bool multiplied = options.scaling != Scaling::none && options.scaling != Scaling::advance;
+  const bool can_turn = may_turn && options.log_branch == LogBranch::lifted && !multiplied;
   std::optional<TurningReference> reference;
   if (can_turn && largest > kNear) reference = reference_along(together);
   if (reference) decision.reference = reference->coefficients();

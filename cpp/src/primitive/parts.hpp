@@ -63,6 +63,16 @@ Eigen::Index dimension_of(const Thing& thing) {
   }
 }
 
+/// How many vectors and rotations a point is made of.
+template <class Space>
+constexpr int parts_of() {
+  if constexpr (std::is_same_v<Space, VectorSpace> || std::is_same_v<Space, RotationSpace>) {
+    return 1;
+  } else {
+    return parts_of<typename Parts<Space>::First>() + parts_of<typename Parts<Space>::Second>();
+  }
+}
+
 /// How many rotations a point has.
 template <class Space>
 constexpr int rotations_in() {

@@ -18,6 +18,26 @@ namespace dmp {
 
 namespace detail {
 
+/// Scaling::automatic decided by whether there is an advance.
+template <class Space>
+void settle_advance(typename Space::Parameters& parameters) {
+  Scaling& scaling = parameters.options.scaling;
+  const bool given = parameters.advance.size() > 0;
+  if (scaling == Scaling::automatic) scaling = given ? Scaling::advance : Scaling::none;
+  if (given && scaling != Scaling::advance)
+    throw InvalidArgument("advance: given, expected none unless options.scaling is advance.");
+  if (scaling == Scaling::advance)
+    require_weights(parameters.advance, parameters.weights.rows(), parts_of<Space>(), "advance");
+}
+
+/// What a run goes by: the weights and, behind them, those of the advance.
+template <class Parameters>
+ForcingTerm forcing_of_run(const Parameters& parameters) {
+  RowMatrix both(parameters.weights.rows(), parameters.weights.cols() + parameters.advance.cols());
+  both << parameters.weights, parameters.advance;
+  return {basis_of(parameters.options), both};
+}
+
 /// Checked, with rotations made exact and options decided.
 template <class Space>
 typename Space::Parameters checked(const typename Space::Parameters& given) {
@@ -33,6 +53,7 @@ typename Space::Parameters checked(const typename Space::Parameters& given) {
   if (ends.reference.rows() > 0 && rotations_in<Space>() != 1)
     throw InvalidArgument("reference: given, expected none for motions of other than one rotation.");
   parameters.options = G::settle(parameters.options, ends);
+  settle_advance<Space>(parameters);
   return parameters;
 }
 
@@ -57,12 +78,13 @@ Primitive<Space> fit(const Demonstrations<Space>& demonstrations, const DmpOptio
                                     });
   }
   LearningTask<Space> task = task_of<Space>(demonstrations, options);
-  const DmpOptions& decided = task.parameters.options;
-  task.parameters.weights =
-      learner
-          ? learned(learner, decided, task.targets)
-          : ForcingFit(basis_of(decided), decided, task.targets.front().value.cols()).weights(task.targets);
-  return Primitive<Space>(task.parameters);
+  const DmpOptions decided = task.parameters.options;
+  RowMatrix own;
+  if (learner) own = learned(learner, decided, task.targets);
+  ForcingFit regression(basis_of(decided), decided, columns_of(task));
+  typename Space::Parameters parameters = learned(std::move(task), regression);
+  if (learner) parameters.weights = own;
+  return Primitive<Space>(parameters);
 }
 
 }  // namespace detail
@@ -73,6 +95,7 @@ template <class Space>
 struct Primitive<Space>::Data {
   Parameters parameters;
   ForcingTerm forcing;
+  ForcingTerm of_run;
 };
 
 template <class Space>
@@ -106,7 +129,8 @@ template <class Space>
 Primitive<Space>::Primitive(const Parameters& parameters) {
   Parameters known = detail::checked<Space>(parameters);
   ForcingTerm forcing(detail::basis_of(known.options), known.weights);
-  data_ = std::make_shared<const Data>(Data{std::move(known), std::move(forcing)});
+  ForcingTerm of_run = detail::forcing_of_run(known);
+  data_ = std::make_shared<const Data>(Data{std::move(known), std::move(forcing), std::move(of_run)});
 }
 
 template <class Space>
@@ -123,6 +147,10 @@ const typename Space::Parameters& Primitive<Space>::parameters() const noexcept 
 template <class Space>
 const ForcingTerm& Primitive<Space>::forcing() const noexcept {
   return data_->forcing;
+}
+template <class Space>
+const ForcingTerm& Primitive<Space>::forcing_of_run() const noexcept {
+  return data_->of_run;
 }
 template <class Space>
 Eigen::Index Primitive<Space>::dimension() const noexcept {

@@ -68,10 +68,12 @@ struct ProductGeometry {
     const auto second = Second::example_of(P::second(demonstration), options, reference);
     const Eigen::Index axes = first.target.value.cols();
     const Eigen::Index dimension = axes + second.target.value.cols();
-    Example<Space> both{joined<Space>(first.ends, second.ends), {}};
+    Example<Space> both{joined<Space>(first.ends, second.ends), {}, {}};
     both.target = {first.target.s, RowMatrix(first.target.value.rows(), dimension),
                    Eigen::VectorXd::Ones(dimension)};
     both.target.value << first.target.value, second.target.value;
+    both.advance.resize(first.target.value.rows(), first.advance.cols() + second.advance.cols());
+    both.advance << first.advance, second.advance;
     return both;
   }
   static void add_groups(const Point& point, std::vector<Eigen::Index>& sizes) {

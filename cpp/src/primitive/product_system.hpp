@@ -51,9 +51,9 @@ class ProductSystem {
   }
 
   bool unscaled() const noexcept { return first_.unscaled() && second_.unscaled(); }
-  void scale(double* forcing) const noexcept {
-    first_.scale(forcing);
-    second_.scale(forcing + first_.dimension());
+  void scale(double* forcing, const double* advance) const noexcept {
+    first_.scale(forcing, advance);
+    second_.scale(forcing + first_.dimension(), advance + parts_of<First>());
   }
   void to_drive(double* tangent) const noexcept {
     first_.to_drive(tangent);

@@ -62,7 +62,7 @@ void step_through(Runner& runner, const Timetable& timetable, Record record) {
 
 template <class Space>
 Runner<Space> runner_of(const Primitive<Space>& model) {
-  return Runner<Space>(model.options(), model.forcing(), model.duration(),
+  return Runner<Space>(model.options(), model.forcing_of_run(), model.duration(),
                        Geometry<Space>::ends_of(model.parameters()));
 }
 

@@ -8,6 +8,7 @@
 
 #include "geometry/exponential_rates.hpp"
 #include "geometry/pose.hpp"
+#include "primitive/advance.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/space.hpp"
 #include "primitive/turning_reference.hpp"
@@ -135,9 +136,12 @@ Example<RotationSpace> RotationGeometry::example_of(const OrientationDemonstrati
   const double tau = demonstration.duration();
   const RowMatrix errors = errors_to_goal(motion.rotation, options.log_branch);
   const VectorXd range = errors.colwise().maxCoeff() - errors.colwise().minCoeff();
+  const VectorXd way = reference.rows() > 0 ? VectorXd::Zero(3) : VectorXd(errors.row(0));
   return {{demonstration.rotation().front(), demonstration.rotation().back(),
            tau * motion.angular_velocity.row(0), errors.row(0), range, reference},
-          {motion.time / tau, forcing_in_form(motion, errors, tau, options, reference), Vector3d::Ones()}};
+          {motion.time / tau, forcing_in_form(motion, errors, tau, options, reference), Vector3d::Ones()},
+          advance_along(motion.time / tau, motion.angular_velocity, way, range,
+                        {*options.orientation_alpha, *options.orientation_beta})};
 }
 
 OrientationTrajectory RotationGeometry::room_for(const VectorXd& times, const Matrix3d&) {

@@ -88,7 +88,7 @@ void RotationSystem::jump_to_goal() noexcept {
 
 /// The scale follows the goal as filtered: the drive does not jump.
 void RotationSystem::rescale() noexcept {
-  if (unscaled()) return;
+  if (scale_.is_fixed()) return;
   const Quaterniond turn = goal_.goal() * start_.conjugate();
   displacement_ = branch_ == LogBranch::lifted ? so3::lifted_log(turn, displacement_) : so3::log(turn);
   scale_.set(displacement_);

@@ -25,8 +25,11 @@ class RotationSystem {
   void set_goal(const Eigen::Matrix3d& goal) noexcept;
   void start_with_goal(const Eigen::Matrix3d& goal) noexcept;
 
-  bool unscaled() const noexcept { return scale_.is_one(); }
-  void scale(double* forcing) const noexcept { scale_.apply(forcing); }
+  bool unscaled() const noexcept { return turning_ ? turning_->unscaled() : scale_.is_one(); }
+  void scale(double* forcing, const double* advance) const noexcept {
+    if (turning_) return turning_->scale(forcing, advance);
+    scale_.apply(forcing, advance);
+  }
   void to_drive(double* tangent) const noexcept;
 
   void set_phase(double s) noexcept {

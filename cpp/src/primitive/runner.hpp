@@ -25,14 +25,15 @@ class Runner {
  public:
   using PointArgument = typename Space::PointArgument;
 
-  /// `forcing` must outlive the runner.
+  /// `forcing` must outlive the runner. Behind the axes of the motion it may have a column of the advance of
+  /// each part (Scaling::advance).
   Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, const Ends<Space>& ends)
       : forcing_(&forcing),
         phase_(duration, options),
         system_(options, ends),
         nodes_(RowMatrix::Zero(3, forcing.dimension())),
         drive_(RowMatrix::Zero(3, forcing.dimension())),
-        coupling_value_(Eigen::VectorXd::Zero(forcing.dimension())),
+        coupling_value_(Eigen::VectorXd::Zero(ends.z.size())),
         psi_(forcing.basis().window_capacity()),
         force_after_end_(options.force_after_end),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
@@ -153,7 +154,7 @@ class Runner {
   [[gnu::noinline]] const double* formed_drive(Node which) noexcept {
     double* const result = drive_.data() + which * drive_.cols();
     std::copy_n(node(which), drive_.cols(), result);
-    system_.scale(result);
+    if (!system_.unscaled()) system_.scale(result, result + coupling_value_.size());
     if (coupling_ != nullptr) Eigen::Map<Eigen::VectorXd>(result, coupling_value_.size()) += coupling_value_;
     return result;
   }

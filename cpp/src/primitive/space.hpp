@@ -13,12 +13,13 @@
 
 namespace dmp::detail {
 
-/// What one demonstration teaches: its ends, and the forcing term that would reproduce it (its scale left at
-/// 1).
+/// What one demonstration teaches: its ends, the forcing term that would reproduce it (its scale left at 1),
+/// and the one that would take an offset of each part from 0 to 1 as the demonstration advances.
 template <class Space>
 struct Example {
   Ends<Space> ends;
   ForcingTarget target;
+  RowMatrix advance = {};  ///< (K x parts)
 };
 
 /// What is decided where the options leave it open.

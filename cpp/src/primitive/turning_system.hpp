@@ -23,6 +23,8 @@ class TurningSystem {
   /// On the branch of the present goal of p; back to the principal one where that leads far around.
   void set_goal(const Eigen::Quaterniond& goal) noexcept;
   void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
+  bool unscaled() const noexcept { return p_.unscaled(); }
+  void scale(double* forcing, const double* advance) const noexcept { p_.scale(forcing, advance); }
   void set_phase(double s) noexcept { phase_ = s; }
   void advance(double step, const Nodes& drive) noexcept { p_.advance(step, drive); }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "primitive/advance.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/parameters.hpp"
 #include "primitive/space.hpp"
@@ -64,7 +65,9 @@ Example<VectorSpace> VectorGeometry::example_of(const Demonstration& given, cons
   const VectorXd goal = position.row(demonstration.size() - 1);
   const VectorXd range = position.colwise().maxCoeff() - position.colwise().minCoeff();
   const auto to_goal = (-motion.position).rowwise() + goal.transpose();
-  Example<VectorSpace> example{{start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}};
+  Example<VectorSpace> example{{start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}, {}};
+  example.advance =
+      advance_along(motion.time / tau, motion.velocity, goal - start, range, {options.alpha, *options.beta});
   example.target = {
       motion.time / tau,
       forcing_of(tau, options.alpha, *options.beta, std::move(motion.acceleration), to_goal, motion.velocity),

@@ -56,7 +56,7 @@ void VectorSystem::start_with_goal(VectorSpace::PointArgument goal) noexcept {
 
 /// The scale follows the goal as filtered: the drive does not jump.
 void VectorSystem::rescale() noexcept {
-  if (unscaled()) return;
+  if (scale_.is_fixed()) return;
   away_ = goal_.goal() - start_;
   scale_.set(away_);
 }

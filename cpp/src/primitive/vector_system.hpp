@@ -26,8 +26,9 @@ class VectorSystem {
 
   /// Whether the drive is the forcing term as it is.
   bool unscaled() const noexcept { return scale_.is_one(); }
-  /// S f in place: the forcing term (d) for where this run starts and goes.
-  void scale(double* forcing) const noexcept { scale_.apply(forcing); }
+  /// S f in place: the forcing term (d) for where this run starts and goes, with that of the advance of each
+  /// part.
+  void scale(double* forcing, const double* advance) const noexcept { scale_.apply(forcing, advance); }
   /// A tangent (d) as a drive; of vectors they are the same.
   void to_drive(double*) const noexcept {}
 

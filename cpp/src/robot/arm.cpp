@@ -177,7 +177,11 @@ Eigen::VectorXd Arm::inverse_dynamics(const Eigen::VectorXd& q, const Eigen::Vec
   detail::check_joints(velocity, joint_count(), "velocity");
   detail::check_joints(acceleration, joint_count(), "acceleration");
   detail::ArmDynamics dynamics(*model_, gravity());
-  return dynamics.holding(q) + dynamics.moving(q, velocity, acceleration);
+  Eigen::VectorXd effort = dynamics.holding(q) + dynamics.moving(q, velocity, acceleration);
+  if (!effort.allFinite())
+    throw InvalidArgument(
+        "velocity, acceleration: so large that the efforts are beyond what a double holds.");
+  return effort;
 }
 
 RowMatrix Arm::gravity_effort(const RowMatrix& q) const {

@@ -182,8 +182,8 @@ void warn_of_inertia(const urdf::Link& link, std::vector<std::string>& warnings)
   inertia << body.ixx, body.ixy, body.ixz, body.ixy, body.iyy, body.iyz, body.ixz, body.iyz, body.izz;
   const Eigen::Vector3d moments = inertia.selfadjointView<Eigen::Lower>().eigenvalues();
   const double tolerance = 1e-9 * moments.cwiseAbs().maxCoeff();
-  const bool possible =
-      (body.mass > 0.0 || inertia.isZero(0.0)) && body.mass >= 0.0 && moments[0] >= -tolerance && moments[2] <= moments[0] + moments[1] + tolerance;
+  const bool possible = (body.mass > 0.0 || inertia.isZero(0.0)) && body.mass >= 0.0 &&
+                        moments[0] >= -tolerance && moments[2] <= moments[0] + moments[1] + tolerance;
   if (!possible)
     warnings.push_back("link '" + link.name +
                        "': no body has this mass and inertia; kinematics ignore them, a simulator may not.");

@@ -108,7 +108,8 @@ class Scanner {
   void take_limit(const std::string& tag) {
     const bool lower = !attribute(tag, "lower").empty(), upper = !attribute(tag, "upper").empty();
     if (lower != upper) found_.missing[joint_] = lower ? "upper" : "lower";
-    const double up = positive(attribute(tag, "acceleration")), down = positive(attribute(tag, "deceleration"));
+    const double up = positive(attribute(tag, "acceleration")),
+                 down = positive(attribute(tag, "deceleration"));
     const HigherLimits higher = {up > 0.0 && down > 0.0 ? std::min(up, down) : std::max(up, down),
                                  positive(attribute(tag, "jerk"))};
     if (higher.acceleration > 0.0 || higher.jerk > 0.0) found_.higher[joint_] = higher;

@@ -390,8 +390,10 @@ class Regression(enum.Enum):
         ...
 class Scaling(enum.Enum):
     """
-    By what the forcing term is multiplied when start and goal change.
+    How the forcing term follows when start and goal change; automatic: advance.
     """
+    advance: typing.ClassVar[Scaling]
+    automatic: typing.ClassVar[Scaling]
     none: typing.ClassVar[Scaling]
     per_axis: typing.ClassVar[Scaling]
     per_axis_relative: typing.ClassVar[Scaling]
@@ -810,6 +812,12 @@ class DmpParameters:
     def __repr__(self) -> str:
         ...
     @property
+    def advance(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @advance.setter
+    def advance(self, arg1: typing.Any) -> None:
+        ...
+    @property
     def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
         ...
     @amplitude.setter
@@ -1092,6 +1100,12 @@ class OrientationDmpParameters:
     def __init__(self, **kwargs) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    @property
+    def advance(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @advance.setter
+    def advance(self, arg1: typing.Any) -> None:
         ...
     @property
     def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1388,6 +1402,12 @@ class PoseDmpParameters:
     def __init__(self, **kwargs) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    @property
+    def advance(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @advance.setter
+    def advance(self, arg1: typing.Any) -> None:
         ...
     @property
     def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1773,6 +1793,12 @@ class PoseGripperDmpParameters:
     def __init__(self, **kwargs) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    @property
+    def advance(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @advance.setter
+    def advance(self, arg1: typing.Any) -> None:
         ...
     @property
     def amplitude(self) -> numpy.typing.NDArray[numpy.float64]:

@@ -139,8 +139,8 @@ def read_mesh(path: Path) -> Array:
             return _read_obj(path.read_text(encoding="utf-8", errors="replace"))
         return _read_stl(path.read_bytes()) if kind == ".stl" else _read_other(path)
     except (ValueError, IndexError) as error:
-        why = str(error) or type(error).__name__
-        raise InvalidArgument(f"'{path.name}' cannot be read as a mesh ({why}). Convert it to .obj or .stl.") from None
+        why = f" ({error})" if str(error) and "NoneType" not in str(error) else ""
+        raise InvalidArgument(f"'{path.name}' cannot be read as a mesh{why}. Convert it to .obj or .stl.") from None
 
 
 def _read_other(path: Path) -> Array:

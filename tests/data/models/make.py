@@ -23,6 +23,7 @@ OPTIONS: dict[str, dict[str, object]] = {
     "log_linear": {"orientation_form": "log_linear", "goal_filter": 10.0, "tempo_filter": 0.0},
     "ude_principal": {"orientation_form": "ude", "log_branch": "principal"},
     "turning": {"orientation_form": "turning"},
+    "advance": {"scaling": "advance"},
     "gains": {"alpha": 30.0, "beta": 6.0, "orientation_alpha": 20.0, "orientation_beta": 5.0, "alpha_x": 3.0},
 }
 
