@@ -33,6 +33,7 @@ void settle_advance(typename Space::Parameters& parameters) {
 /// What a run goes by: the weights and, behind them, those of the advance.
 template <class Parameters>
 ForcingTerm forcing_of_run(const Parameters& parameters) {
+  if (parameters.advance.size() == 0) return {basis_of(parameters.options), parameters.weights};
   RowMatrix both(parameters.weights.rows(), parameters.weights.cols() + parameters.advance.cols());
   both << parameters.weights, parameters.advance;
   return {basis_of(parameters.options), both};
