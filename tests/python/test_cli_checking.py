@@ -1,6 +1,8 @@
 """`dmpcpp check-urdf` and `dmpcpp doctor`: every defect named, and what to install."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 from dmpcpp import doctor, urdf_check
@@ -102,3 +104,10 @@ def test_doctor_names_what_is_there_and_what_is_missing(tmp_path, monkeypatch):
     found = doctor.examine()
     missing = next(part for part in found.parts if part.name == "no-such")
     assert not found.ok and not missing.ok and "dmpcpp[sim]" in missing.to_do
+
+
+def test_a_reader_that_has_enough_ends_the_output_without_a_word(tmp_path):
+    command = f"{sys.executable} -c 'from dmpcpp.cli import main; main()' arms | head -n 1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, cwd=tmp_path)
+    assert len(done.stdout.splitlines()) == 1
+    assert done.stderr == ""

@@ -122,6 +122,14 @@ REACH = 0.5 - 0.5 * np.cos(np.pi * np.clip((TIME - 0.6) / 0.8, 0.0, 1.0))
 RESTING = np.column_stack([0.3 + 0.2 * REACH, 0.0 * TIME, 0.9 + 0.1 * REACH])
 DOWN = Rotation.from_euler("x", 180, degrees=True)
 
+TWO_EPISODES = table(
+    "a.csv",
+    f"episode_index,time,{NAMES}",
+    ["0"] * COUNT + ["1"] * COUNT,
+    np.tile(TIME, 2),
+    np.tile(np.column_stack([POSITION, XYZW]), (2, 1)),
+)
+
 KINDS = {
     # stamps
     "bursts": (table("a.csv", f"time,{NAMES}", bursts(), POSITION, XYZW), "", ASKED, ["bursts", "--rate"]),
@@ -186,25 +194,13 @@ KINDS = {
         ["Quest 3 have y up"],
     ),
     "episodes": (
-        table(
-            "a.csv",
-            f"episode_index,time,{NAMES}",
-            ["0"] * COUNT + ["1"] * COUNT,
-            np.tile(TIME, 2),
-            np.tile(np.column_stack([POSITION, XYZW]), (2, 1)),
-        ),
+        TWO_EPISODES,
         "",
         ASKED,
         ["episode_index", "2 episodes", "--where episode_index=1"],
     ),
     "one episode": (
-        table(
-            "a.csv",
-            f"episode_index,time,{NAMES}",
-            ["0"] * COUNT + ["1"] * COUNT,
-            np.tile(TIME, 2),
-            np.tile(np.column_stack([POSITION, XYZW]), (2, 1)),
-        ),
+        TWO_EPISODES,
         "--episode 1",
         READ,
         [],

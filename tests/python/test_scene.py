@@ -35,6 +35,21 @@ def test_the_arm_is_drawn_where_its_kinematics_say(name, base):
         assert np.abs(drawn_tip(shown, arm) - arm.forward_kinematics(joints)).max() < 1e-5
 
 
+def test_a_leftover_of_xacro_is_drawn_without_a_word(caplog, capfd):
+    from dmpcpp.scene import triangles
+
+    arm = arms.find("panda")
+    odd = Arm.from_urdf(
+        arm.urdf.replace("</robot>", '<xacro:property name="a" value="1"/></robot>'),
+        base=arm.base,
+        tip=arm.tip,
+        folder=arm.folder,
+    )
+    middle = 0.5 * (arm.lower + arm.upper)
+    assert triangles(odd, [middle]).shape == triangles(arm, [middle]).shape
+    assert caplog.text == "" and capfd.readouterr() == ("", "")
+
+
 def test_joints_that_are_too_few_are_refused():
     from dmpcpp.scene import ShownArm, serving
 

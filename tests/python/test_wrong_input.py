@@ -32,6 +32,8 @@ WRONG = {
     "kernels in words": ((*FIT, "--basis-count", "many"), "--basis-count", "many", "integer"),
     "a scale in words": ((*FIT, "--arm", "panda", "--scale", "big"), "--scale", "big", "such as 0.5"),
     "a scale for no arm": ((*FIT, "--scale", "0.5"), "--scale", "without --arm", "State --arm"),
+    "a floor in words": (("demo", "--floor", "deep"), "--floor", "deep", "a height in m"),
+    "a floor without end": (("demo", "--floor", "inf"), "--floor", "inf", "or none"),
     "an arm unheard of": ((*PLAN, "--arm", "ur99"), "arm", "ur99", "dmpcpp arms"),
     "an arm with links that it has": ((*PLAN, "--tip", "hand"), "tip", "panda", ".urdf"),
     "a URDF that is not there": ((*PLAN, "--arm", "no.urdf"), "no.urdf", "no.urdf", "cannot"),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._limit_options import limit_options, taken_limits
 from dmpcpp.errors import InvalidArgument
 
@@ -62,9 +64,7 @@ def optional_arm_options(what: str) -> Callable[[Callable[..., None]], Callable[
 
 
 def _decorated(command: Callable[..., None], **arm: Any) -> Callable[..., None]:
-    for option in reversed((click.option("--arm", metavar="NAME|FILE.urdf", **arm), *_CHOICE, limit_options)):
-        command = option(command)
-    return command
+    return add_options(command, (click.option("--arm", metavar="NAME|FILE.urdf", **arm), *_CHOICE, limit_options))
 
 
 def follow_option(command: Callable[..., None]) -> Callable[..., None]:
@@ -72,8 +72,8 @@ def follow_option(command: Callable[..., None]) -> Callable[..., None]:
     return click.option(
         "--follow",
         metavar="position|axis[:x|y|z]|pose",
-        help="What of the hand the arm follows: its position; and one axis of the tool (default z); or the whole pose "
-        "(default for six joints or more; fewer need one stated).",
+        help="The part of the hand's pose that the arm follows: the position, the position and one axis of the tool "
+        "(default z), or the whole pose (default; an arm with fewer than six joints needs this option).",
     )(command)
 
 
@@ -94,14 +94,11 @@ def contact_options(command: Callable[..., None]) -> Callable[..., None]:
             help="Two links that may touch, or a link and floor; repeatable. An .srdf beside the URDF is read, too.",
         ),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 def taken_surroundings(options: dict[str, Any]) -> Surroundings:
     """Take --floor and --ignore-contact out of a command's arguments."""
-    from dmpcpp.cli._numbers import numbers
     from dmpcpp.robot import Surroundings
 
     floor, pairs = options.pop("floor"), options.pop("ignored")
@@ -111,7 +108,13 @@ def taken_surroundings(options: dict[str, Any]) -> Surroundings:
             raise InvalidArgument(f"--ignore-contact: '{text}', expected two links such as head,right_l1.")
     if floor is None or floor == "none":
         return Surroundings("auto" if floor is None else None, ignored)
-    return Surroundings(numbers("--floor", floor, 1)[0], ignored)
+    try:
+        height = float(floor)
+    except ValueError:
+        height = math.nan
+    if not math.isfinite(height):
+        raise InvalidArgument(f"--floor: '{floor}', expected a height in m such as -0.05, or none.")
+    return Surroundings(height, ignored)
 
 
 def taken_choice(options: dict[str, Any]) -> dict[str, Any]:

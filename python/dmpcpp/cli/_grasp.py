@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._arm_options import follow_option
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._tables import mark, note_style, number
@@ -46,9 +47,7 @@ def _bottle_options(command: Callable[..., None]) -> Callable[..., None]:
             "--seed", type=click.IntRange(0), help="Random seed: draws place, yaw and a position error of 4 mm."
         ),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -65,9 +64,7 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
         click.option("--start", type=float, metavar="S", help="Start of the reach [s] (default: found)."),
         click.option("--end", type=float, metavar="S", help="End of the reach [s]."),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 @click.command()

@@ -46,6 +46,8 @@ class _Group(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         try:
             return super().invoke(ctx)
+        except BrokenPipeError:  # whoever reads the output has enough (`| head`); click ends without a word
+            raise
         except (InvalidArgument, MissingDependency, OSError) as error:
             click.echo(f"dmpcpp: {self._shown(ctx, error)}", err=True)
             ctx.exit(WRONG_INPUT)

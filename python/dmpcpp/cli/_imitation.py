@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines, exports
 from dmpcpp.cli._config import save_config
@@ -88,9 +89,7 @@ def _run_options(
             click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
-        for option in reversed(options):
-            command = option(command)
-        return command
+        return add_options(command, options)
 
     return decorate
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._flags import flag
 from dmpcpp.errors import InvalidArgument
 
@@ -50,9 +51,7 @@ def limit_options(command: Callable[..., None]) -> Callable[..., None]:
             help="Limits as in MoveIt's joint_limits.yaml; options beside it win.",
         ),
     ]
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 def taken_limits(options: dict[str, Any]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp._engines import default_engine
+from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._flags import flag
 from dmpcpp.cli._recording_options import NumberOrAll
 from dmpcpp.errors import InvalidArgument
@@ -66,9 +67,7 @@ def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
             "disturb learning).",
         ),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 def taken_preparation(options: dict[str, Any]) -> tuple[Preparation, bool]:
@@ -118,9 +117,7 @@ def placing_options(command: Callable[..., None]) -> Callable[..., None]:
             help="Rotation vector [deg] of the tool in the hand of an anchored motion (default: searched).",
         ),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 def taken_placing(options: dict[str, Any]) -> dict[str, Any]:

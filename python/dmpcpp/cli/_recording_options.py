@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from dmpcpp.cli._add_options import add_options
 from dmpcpp.errors import InvalidArgument
 
 __all__ = ["NAMES", "NumberOrAll", "recording_options", "taken_recording"]
@@ -122,9 +123,7 @@ PREPARATION = ("start", "end", "longest_gap", "segment", "repetition", "resample
 
 def recording_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options to a command; `taken_recording` takes them out of its arguments."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+    return add_options(command, _OPTIONS)
 
 
 def taken_recording(options: dict[str, Any]) -> dict[str, Any]:

@@ -134,7 +134,7 @@ def write_plan(
     base, tip : str
         The frames: poses are of `tip` in `base`.
     follow : str
-        What of the poses the arm follows.
+        The part of each pose that the arm follows.
 
     Raises
     ------

@@ -97,7 +97,7 @@ class Planner:
     gripper : ParallelGripper
         At the arm's tip.
     follow : str, optional
-        "pose", or "axis:x", "axis:y", "axis:z": what of the hand's poses counts.
+        "pose", or "axis:x", "axis:y", "axis:z": the part of the hand's pose that the arm follows.
 
     For several threads make several.
     """

@@ -101,7 +101,7 @@ class Imitation(Checked):
 
     @property
     def changed(self) -> tuple[str, ...]:
-        """What of the arm's description was replaced: inertias that no body can have, with the size of the change."""
+        """Parts of the arm's description that were replaced: impossible inertias, with the size of the change."""
         found = tuple(map(str, self.log.inertia_repairs)) if self["inertia"].ok else ()
         return (f"inertia of {', '.join(found)} by the nearest that a body can have",) if found else ()
 
@@ -189,8 +189,8 @@ def imitate(
     surroundings : Surroundings, optional
         Where the floor lies, and which pairs of links may touch.
     follow : str, optional
-        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
-        stated.
+        "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
+        than six joints needs it.
     progress : callable, optional
         See `Progress`.
 

@@ -102,7 +102,7 @@ def solve(
     engine : callable, optional
         A physics engine; where given, the effort limits hold too.
     follow : Follow
-        What of the poses counts.
+        The part of each pose that the arm follows.
 
     Raises
     ------

@@ -61,7 +61,7 @@ class JointPlan(Checked):
     contacts : LookedAt or None
         What is looked at for contacts, and what is left out; None where nothing is.
     follow : Follow
-        What of the poses counts.
+        The part of each pose that the arm follows.
     """
 
     arm: Arm
@@ -124,8 +124,8 @@ def plan(
         Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
         by.
     follow : str, optional
-        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
-        stated.
+        "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
+        than six joints needs it.
 
     Raises
     ------

@@ -79,8 +79,8 @@ def place(
         A last word on joints that carry the whole motion, for what kinematics does not see: an arm that
         touches itself, for instance.
     follow : str, optional
-        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
-        stated.
+        "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
+        than six joints needs it.
 
     Returns
     -------

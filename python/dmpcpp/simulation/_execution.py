@@ -73,7 +73,7 @@ def execute(
         ``simulator(arm, time_step)`` gives a ``Simulator``; ``functools.partial(Bullet, floor=None)`` has no
         ground. With a disturbance of the arm also called with ``disturbance=``.
     follow : Follow
-        What of the tool's pose is judged.
+        The part of the tool's pose that is judged: the part that the arm follows.
     progress : callable, optional
         Called as ``progress(done, total)`` every hundred steps and at the end.
 

@@ -74,7 +74,7 @@ class ExecutionLog:
     disturbance : Disturbance
         What the controller did not know.
     follow : Follow
-        What of the tool's pose is judged.
+        The part of the tool's pose that is judged: the part that the arm follows.
     dynamics : DynamicsMismatch
         How far the masses and gravity torques of the controller's model are from KDL's.
     """

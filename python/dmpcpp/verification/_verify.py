@@ -119,7 +119,7 @@ def verify(
     cutoff : float
         Of the low-pass [Hz], > 0; without effect from 0.45 of the log's rate.
     follow : Follow
-        What of the tool's pose is judged.
+        The part of the tool's pose that is judged: the part that the arm follows.
     simulator : callable, optional
         Engine in whose geometry the executed joints are looked at for contacts; None: not looked at.
     accept : iterable of str

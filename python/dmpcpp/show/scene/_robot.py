@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import io
+import logging
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -123,7 +126,8 @@ def _read(arm: Arm) -> tuple[URDF, bool]:
     def load(collision: bool) -> Any:
         drawn = {"build_scene_graph": not collision, "load_meshes": not collision}
         solid = {"build_collision_scene_graph": collision, "load_collision_meshes": collision}
-        with warnings.catch_warnings():  # yourdfpy uses calls of trimesh that are going out of use
+        # yourdfpy uses calls of trimesh that are going out of use, and logs where a prefix is not declared.
+        with warnings.catch_warnings(), _unlogged("yourdfpy.urdf"):
             warnings.simplefilter("ignore", DeprecationWarning)
             return URDF.load(
                 io.BytesIO(arm.urdf.encode()), filename_handler=partial(_mesh_path, arm.folder), **drawn, **solid
@@ -133,6 +137,16 @@ def _read(arm: Arm) -> tuple[URDF, bool]:
     if model.collision_scene is not None and model.collision_scene.geometry:
         return model, True
     return load(collision=False), False
+
+
+@contextmanager
+def _unlogged(name: str) -> Iterator[None]:
+    logger = logging.getLogger(name)
+    before, logger.disabled = logger.disabled, True
+    try:
+        yield
+    finally:
+        logger.disabled = before
 
 
 def _mesh_path(folder: str, fname: str) -> str:

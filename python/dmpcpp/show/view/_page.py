@@ -51,8 +51,8 @@ def serve(
         Called with the page's address.
     stop : threading.Event, optional
     follow : str, optional
-        "pose", "axis", "axis:x", .. or "position": what of the poses counts; for fewer than six joints it must be
-        stated.
+        "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
+        than six joints needs it.
 
     Raises
     ------
