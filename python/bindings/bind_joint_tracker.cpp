@@ -67,7 +67,8 @@ void bind_joint_tracker(py::module_& m) {
       R"(The differential inverse kinematics of a control loop: joints that go along with a pose that moves.
 
 Each track() begins at the joints of the one before and moves every joint by at most velocity limit x dt, within the
-joint limits, as close to the pose as that allows. The fields of TrackOptions are taken as keywords too.)")
+joint limits, as close to the pose as that allows. A joint that stands up to 1e-3 rad or m beyond a limit, as encoders
+read it, comes back onto it within its velocity limit. The fields of TrackOptions are taken as keywords too.)")
       .def(py::init([](const Arm& arm, const Array& start, const std::optional<TrackOptions>& options,
                        const py::kwargs& fields) {
              return JointTracker(arm, to_vector(start, "start"), with_fields(options, fields));
@@ -80,7 +81,8 @@ Returns IkStatus.ok, or why the pose is missed. Raises InvalidArgument, and chan
 is none.)")
       .def_property(
           "joints", [](const JointTracker& t) { return from_vector(t.joints()); }, &set_joints,
-          "(n,) rad or m; set it to where the robot stands after all, and its velocity becomes 0.")
+          "(n,) rad or m, within the limits or on the way back onto them; set it to where the robot stands after "
+          "all, and its velocity becomes 0.")
       .def_property_readonly(
           "velocity", [](const JointTracker& t) { return from_vector(t.velocity()); },
           "(n,) rad/s or m/s, of the last step.")

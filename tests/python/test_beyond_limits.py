@@ -1,8 +1,10 @@
 """Joints a little beyond their limits are taken and brought back; paths take the whole turns that leave most room."""
 
+import copy
+
 import numpy as np
 import pytest
-from dmpcpp import Arm, InverseKinematics, JointTracker
+from dmpcpp import Arm, IkStatus, InverseKinematics, JointTracker
 from dmpcpp.errors import InvalidArgument
 
 from tests.python.small_arms import arm, six_axis
@@ -19,19 +21,42 @@ def beyond(by, joint=3, side=1):
 
 @pytest.mark.parametrize("by", [1e-9, 1.3e-4, 9.9e-4])
 @pytest.mark.parametrize("side", [1, -1])
-def test_a_start_a_little_beyond_a_limit_is_taken_reported_and_steps_lead_inwards(by, side):
+def test_a_start_a_little_beyond_a_limit_is_taken_and_reported(by, side):
     tracker = JointTracker(ARM, beyond(by, side=side))
     assert tracker.limit_excess == pytest.approx(by, rel=1e-6)
-    assert (tracker.joints >= ARM.lower).all() and (tracker.joints <= ARM.upper).all()
-    goal = ARM.forward_kinematics(beyond(-0.1, side=side))
-    before = tracker.joints[3]
-    tracker.track(goal, 0.01)
-    assert side * (tracker.joints[3] - before) <= 0.0
+    assert (tracker.joints == beyond(by, side=side)).all() and not tracker.velocity.any()
     other = JointTracker(ARM, MIDDLE)
     assert other.limit_excess == 0.0
     other.joints = beyond(by, side=side)
     assert other.limit_excess == pytest.approx(by, rel=1e-6)
-    assert (other.joints >= ARM.lower).all() and (other.joints <= ARM.upper).all()
+    assert (other.joints == beyond(by, side=side)).all()
+
+
+@pytest.mark.parametrize("dt", [1e-4, 1e-3, 0.01])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_joint_beyond_a_limit_comes_back_within_its_velocity_limit(dt, side):
+    """At 2 rad/s the way of 9e-4 rad takes 4.5 steps of 0.1 ms, or a part of one of 1 ms."""
+    tracker, by = JointTracker(ARM, beyond(9e-4, side=side)), 9e-4
+    goal = ARM.forward_kinematics(beyond(0.0, side=side))  # on the limit
+    for _ in range(8):
+        before, by = tracker.joints, max(0.0, by - 2.0 * dt)
+        status = tracker.track(goal, dt)
+        assert (np.abs(tracker.joints - before) <= ARM.velocity_limit * dt * (1 + 1e-9)).all()
+        assert tracker.velocity == pytest.approx((tracker.joints - before) / dt)
+        assert side * (tracker.joints[3] - beyond(0.0, side=side)[3]) == pytest.approx(by, abs=1e-9)
+        assert (status == IkStatus.ok) == (by == 0.0)  # the others cannot make up for it within 1e-6
+        if by:
+            assert status == IkStatus.step_limited and tracker.angle_error == pytest.approx(by, rel=1e-2)
+    assert tracker.limit_excess == pytest.approx(9e-4)  # of what was read
+
+
+def test_the_way_back_is_the_first_part_of_a_step_and_the_pose_gets_the_rest():
+    tracker = JointTracker(ARM, beyond(5e-4))
+    tracker.track(ARM.forward_kinematics(beyond(-0.5)), 1e-3)
+    assert tracker.joints[3] == pytest.approx(ARM.upper[3] + 5e-4 - 2e-3, abs=1e-9)
+    copied = copy.copy(JointTracker(ARM, beyond(5e-4)))
+    copied.track(ARM.forward_kinematics(beyond(-0.5)), 1e-3)
+    assert (copied.joints == tracker.joints).all()
 
 
 def test_a_path_may_start_a_little_beyond_a_limit():

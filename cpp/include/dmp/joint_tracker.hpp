@@ -30,9 +30,9 @@ struct TrackOptions {
 /// in the constructor. The same calls give the same joints to the last bit.
 class DMP_EXPORT JointTracker {
  public:
-  /// `start` (n): where the robot stands. Up to 1e-3 rad or m beyond a limit is taken as on it: see
-  /// limit_excess(). Throws InvalidArgument if it is not n finite values within that, for an option out of
-  /// range, or for an arm of more than 16 free joints.
+  /// `start` (n): where the robot stands. A joint up to 1e-3 rad or m beyond a limit comes back onto it within
+  /// its velocity limit: see limit_excess(). Throws InvalidArgument if it is not n finite values within that,
+  /// for an option out of range, or for an arm of more than 16 free joints.
   JointTracker(Arm arm, const Eigen::VectorXd& start, const TrackOptions& options = {});
   JointTracker(const JointTracker& other);
   JointTracker(JointTracker&&) noexcept;
@@ -43,10 +43,11 @@ class DMP_EXPORT JointTracker {
   /// invalid_input if the arguments are none: then nothing changes.
   IkStatus track(const Eigen::Matrix4d& pose, double dt) noexcept DMP_REALTIME;
   /// Where the robot stands after all, e.g. as measured; velocity becomes 0. invalid_input, and no change,
-  /// unless q is n finite values within the limits, or up to 1e-3 rad or m beyond: then it stands on them.
+  /// unless q is n finite values within the limits, or up to 1e-3 rad or m beyond, as for the constructor.
   IkStatus set_joints(const Eigen::VectorXd& q) noexcept DMP_REALTIME;
 
-  const Eigen::VectorXd& joints() const noexcept DMP_REALTIME;    ///< (n) rad or m, within the limits
+  /// (n) rad or m, within the limits or on the way back onto them.
+  const Eigen::VectorXd& joints() const noexcept DMP_REALTIME;
   const Eigen::VectorXd& velocity() const noexcept DMP_REALTIME;  ///< (n) rad/s or m/s, of the last step
   double position_error() const noexcept DMP_REALTIME;            ///< m, of the last step, by KDL
   double angle_error() const noexcept DMP_REALTIME;               ///< rad, of the last step, by KDL

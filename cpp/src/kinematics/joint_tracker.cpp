@@ -51,9 +51,18 @@ struct JointTracker::State {
 
   void stand_at(const Eigen::VectorXd& q) {
     excess = excess_of(q);
-    joints = q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
-    at = tracker.standing_at(joints);
+    joints = q;
+    at = tracker.standing_at(q.cwiseMax(arm.lower()).cwiseMin(arm.upper()));
+    beyond = q - at.joints;
+    drift.setZero(q.size());
     velocity.setZero(q.size());
+  }
+
+  // Takes a joint beyond a limit back towards it, first of all that it does with a step; returns what is left.
+  detail::Joints come_back(const detail::Joints& step) {
+    const detail::Joints back = beyond.cwiseMin(step).cwiseMax(-step);
+    beyond -= back;
+    return step - back.cwiseAbs();
   }
 
   Arm arm;
@@ -61,7 +70,9 @@ struct JointTracker::State {
   detail::PathTracker tracker;
   detail::KdlForward forward;
   double pull;
-  detail::Descent at;
+  detail::Descent at;     // within the limits
+  detail::Joints beyond;  // how far each joint stands outside them: joints = at.joints + beyond
+  detail::Joints drift;   // rad/s or m/s, of the last step within the limits
   Eigen::VectorXd joints, velocity;
   double position_error = 0.0, angle_error = 0.0, excess = 0.0;
 };
@@ -75,6 +86,8 @@ JointTracker::JointTracker(Arm arm, const Eigen::VectorXd& start, const TrackOpt
 JointTracker::JointTracker(const JointTracker& other)
     : state_(std::make_unique<State>(other.arm(), other.options())) {
   state_->at = other.state_->at;
+  state_->beyond = other.state_->beyond;
+  state_->drift = other.state_->drift;
   state_->joints = other.state_->joints;
   state_->velocity = other.state_->velocity;
   state_->position_error = other.state_->position_error;
@@ -92,12 +105,16 @@ IkStatus JointTracker::track(const Eigen::Matrix4d& pose, double dt) noexcept {
   State& s = *state_;
   if (!(dt > 0.0) || !std::isfinite(dt) || !detail::is_pose(pose)) return IkStatus::invalid_input;
   const detail::Frame target = detail::rigid_frame(pose);
-  const detail::Joints step = s.arm.velocity_limit() * dt;
-  const detail::Descent next = s.tracker.advance(s.at, target, step, s.velocity * dt, s.pull);
-  const IkStatus status = s.tracker.verdict(s.at, next, target, step);
-  s.velocity = (next.joints - s.joints) / dt;
-  s.joints = next.joints;
+  const detail::Joints step = s.come_back(s.arm.velocity_limit() * dt);
+  const detail::Descent next = s.tracker.advance(s.at, target, step, s.drift * dt, s.pull);
+  IkStatus status = s.tracker.verdict(s.at, next, target, step);
+  s.drift = (next.joints - s.at.joints) / dt;
+  const detail::Joints joints = next.joints + s.beyond;
+  s.velocity = (joints - s.joints) / dt;
+  s.joints = joints;
   s.at = next;
+  if (status == IkStatus::ok && !s.beyond.isZero(0.0) && !s.tracker.meets(target, joints))
+    status = IkStatus::step_limited;
   const detail::Vector6 error = s.tracker.goal().error(target, s.forward(s.joints));
   s.position_error = error.head<3>().norm();
   s.angle_error = error.tail<3>().norm();

@@ -2806,7 +2806,8 @@ class JointTracker:
     The differential inverse kinematics of a control loop: joints that go along with a pose that moves.
     
     Each track() begins at the joints of the one before and moves every joint by at most velocity limit x dt, within the
-    joint limits, as close to the pose as that allows. The fields of TrackOptions are taken as keywords too.
+    joint limits, as close to the pose as that allows. A joint that stands up to 1e-3 rad or m beyond a limit, as encoders
+    read it, comes back onto it within its velocity limit. The fields of TrackOptions are taken as keywords too.
     """
     def __copy__(self) -> JointTracker:
         ...
@@ -2832,7 +2833,7 @@ class JointTracker:
     @property
     def joints(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        (n,) rad or m; set it to where the robot stands after all, and its velocity becomes 0.
+        (n,) rad or m, within the limits or on the way back onto them; set it to where the robot stands after all, and its velocity becomes 0.
         """
     @joints.setter
     def joints(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
