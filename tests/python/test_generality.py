@@ -18,6 +18,9 @@ from dmpcpp.trials.generality._trial import _changed, _learning_cause
 from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
+from tests.python.small_arms import write
+from tests.python.urdfs import chain, robot
+
 DONE = Result(Trial("panda", "none", 0, 0), True, "", 0, 1.0, 1e-5, 1e-5, 1e-5, 1.5, 1e-8, 1e-8, 2.0)
 
 
@@ -250,6 +253,40 @@ def test_kept_trials_are_summed_up_without_being_made_again(tmp_path):
     assert done.returncode == 3, done.stderr
     assert "panda, noise none, motion 1: torque_clipped 3" in done.stdout and "50.0 % of 2" in done.stdout
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["rows"][0]["causes"] == {"torque_clipped": 1}
+
+
+BARE = '<limit lower="-2.8" upper="2.8" velocity="0" effort="0"/>'
+
+
+def test_trials_take_the_options_of_an_arm(tmp_path):
+    """Limits, contacts, dynamics and what is followed reach every trial, and another limit is another trial."""
+    write(tmp_path, limit=BARE, inertials={f"l{k}": "" for k in range(1, 7)})
+    made = ("-k", 1, "--arm", "six.urdf", "--noise", "none", "--out", "out", "--json", "--dynamics", "none")
+    made = (*made, "--follow", "position", "--floor", "none", "--ignore-contact", "base,l2")
+    done = command(*made, "--velocity", 2, "--tip", "l6", cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (trial,) = [result.trial for result in generality.kept(tmp_path / "out" / "trials.jsonl")]
+    assert trial.choice == {"tip": "l6", "limits": {"velocity": [2.0]}}
+    around = {"floor": None, "ignored": [["base", "l2"]]}
+    assert trial.options == {"follow": "position", "dynamics": "none", "surroundings": around}
+    done = command(*made, "--velocity", 1, "--tip", "l6", cwd=tmp_path)
+    slow, fast = [result.slowdown for result in reversed(generality.kept(tmp_path / "out" / "trials.jsonl"))]
+    assert done.returncode == 0 and slow == pytest.approx(2 * fast, rel=0.2)
+
+
+def test_what_is_as_usual_is_the_same_trial_whether_stated_or_not():
+    usual = {"follow": None, "dynamics": "full", "surroundings": {"floor": "auto", "ignored": []}}
+    plain = generality.trials(1, ["panda"])
+    assert generality.trials(1, ["panda"], choice={"base": None, "limits": {}}, options=usual) == plain
+    assert Trial("panda", "none", 0, 0).key == plain[0].key
+    other = generality.trials(1, ["panda"], options={**usual, "dynamics": "none"})[0]
+    assert other.key != plain[0].key and other.imitation_options()["dynamics"] == "none"
+
+
+def test_an_arm_of_five_joints_is_refused_before_the_first_trial(tmp_path):
+    (tmp_path / "five.urdf").write_text(robot(chain(5)))
+    done = command("-k", 1, "--arm", "five.urdf", cwd=tmp_path)
+    assert done.returncode == 2 and "--follow position" in done.stderr and not (tmp_path / "dmpcpp-generality").exists()
 
 
 @pytest.mark.slow

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from dmpcpp.robot import Surroundings
 
 __all__ = [
+    "arm_choice_options",
     "arm_options",
     "contact_options",
     "follow_option",
@@ -61,6 +62,11 @@ def arm_options(command: Callable[..., None]) -> Callable[..., None]:
 def optional_arm_options(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Return a decorator that adds --arm, which need not be given; `what` is what it is for."""
     return lambda command: _decorated(command, help=what)
+
+
+def arm_choice_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add what belongs to --arm, for a command with an --arm of its own."""
+    return add_options(command, (*_CHOICE, limit_options))
 
 
 def _decorated(command: Callable[..., None], **arm: Any) -> Callable[..., None]:

@@ -16,7 +16,7 @@ from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option,
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
-from dmpcpp.cli._limit_options import accept_option, names
+from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     help="Physics engine.",
 )
 @accept_option
+@dynamics_option
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option("--reports", is_flag=True, help="Also write each run's report.html.")
 @click.option(
@@ -70,6 +71,7 @@ def batch(
     seed: int,
     simulator: str,
     accept: tuple[str, ...],
+    dynamics: str,
     jobs: int,
     reports: bool,
     out: Path,
@@ -97,6 +99,7 @@ def batch(
         "basis_count": basis_count,
         "simulator": simulator,
         "accept": list(names(accept)),
+        "dynamics": dynamics,
         "follow": options.pop("follow"),
         "surroundings": taken_surroundings(options).to_dict(),
         "report": reports,

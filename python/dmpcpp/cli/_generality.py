@@ -11,9 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dmpcpp.cli._arm_options import (
+    arm_choice_options,
+    contact_options,
+    follow_option,
+    taken_choice,
+    taken_surroundings,
+)
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
-from dmpcpp.cli._limit_options import accept_option, names
+from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -28,7 +35,11 @@ if TYPE_CHECKING:
 @click.option(
     "--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of motions, changes and noise."
 )
+@arm_choice_options
+@follow_option
+@contact_options
 @accept_option
+@dynamics_option
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option(
     "--out",
@@ -44,9 +55,11 @@ def generality(
     noises: tuple[str, ...],
     seed: int,
     accept: tuple[str, ...],
+    dynamics: str,
     jobs: int,
     out: Path,
     as_json: bool,
+    **options: Any,
 ) -> None:
     """Learn, change, solve and execute random motions with several arms and levels of noise.
 
@@ -57,12 +70,17 @@ def generality(
     """
     from dmpcpp._atomic import write_text
     from dmpcpp.robot import arms as known
+    from dmpcpp.robot import following
     from dmpcpp.trials import generality as library
 
     refuse_file(out)
+    choice, around = taken_choice(options), taken_surroundings(options)
+    how = {"follow": options["follow"], "dynamics": dynamics, "surroundings": around.to_dict()}
     for arm in arms:
-        known.load(arm)  # refuses a name or file that is none
-    wanted = library.trials(count, arms or ("panda", "iiwa"), noises or tuple(library.NOISE), seed, names(accept))
+        following(known.load(arm, **choice), how["follow"])  # refuses what is none, before anything runs
+    wanted = library.trials(
+        count, arms or ("panda", "iiwa"), noises or tuple(library.NOISE), seed, names(accept), choice, how
+    )
     out.mkdir(parents=True, exist_ok=True)
     with ended_by_sigterm(), _progress(as_json) as progress:
         results = library.run(wanted, out / "trials.jsonl", jobs, progress)

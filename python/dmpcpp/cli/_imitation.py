@@ -17,7 +17,7 @@ from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option,
 from dmpcpp.cli._choices import engines, exports
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._group import FAILED, refuse_file
-from dmpcpp.cli._limit_options import accept_option, names
+from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 from dmpcpp.cli._options import (
     DEFAULT_ENGINE,
     SHOWN_ENGINE,
@@ -79,13 +79,7 @@ def _run_options(
                 help="Also write a robot program if verified: joints.yaml, joints_bag, joints.script. Repeatable.",
             ),
             accept_option,
-            click.option(
-                "--dynamics",
-                default="full",
-                show_default=True,
-                type=click.Choice(["full", "none"]),
-                help="none: by kinematics alone, for an arm without inertias; torque is then not judged.",
-            ),
+            dynamics_option,
             click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )

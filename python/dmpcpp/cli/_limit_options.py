@@ -12,7 +12,7 @@ from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._flags import flag
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["accept_option", "limit_options", "names", "taken_limits"]
+__all__ = ["accept_option", "dynamics_option", "limit_options", "names", "taken_limits"]
 
 _KINDS = {"velocity": "rad/s", "acceleration": "rad/s^2", "jerk": "rad/s^3", "effort": "Nm"}
 _FIELDS = (*_KINDS, "tool_speed", "payload", "density", "limits")
@@ -74,6 +74,17 @@ def accept_option(command: Callable[..., None]) -> Callable[..., None]:
         multiple=True,
         help="Accept checks that cannot be judged, e.g. torque_ratio for an arm without effort limits; never one "
         "that failed.",
+    )(command)
+
+
+def dynamics_option(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --dynamics."""
+    return click.option(
+        "--dynamics",
+        default="full",
+        show_default=True,
+        type=click.Choice(["full", "none"]),
+        help="none: by kinematics alone, for an arm without inertias; torque is then not judged.",
     )(command)
 
 

@@ -12,9 +12,8 @@ import numpy as np
 
 from dmpcpp import simulation
 from dmpcpp._core import Arm, JointTrajectory
-from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import FLOOR, ContactRules, links_of
+from dmpcpp.robot import FLOOR, ContactRules, links_of, random_postures
 from dmpcpp.simulation import Simulator
 
 __all__ = ["ClearOfItself", "LookedAt", "clear_of_itself", "require_free_postures"]
@@ -130,7 +129,7 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
     """
     found: Counter[tuple[str, str]] = Counter()
     with engine(arm, 1e-3) as world:
-        for q in _random_joints(arm, np.random.default_rng(seed), _POSTURES):
+        for q in random_postures(arm, _POSTURES, seed):
             found.update({(contact.link, contact.other) for contact in world.contacts_at(q)})
         rest = world.contacts_at(np.clip(np.zeros(arm.joint_count), arm.lower, arm.upper))
         at_rest = tuple((contact.link, contact.other) for contact in rest)
@@ -145,9 +144,3 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
         f"arm: links of {arm.name!r} touch in (nearly) every posture: {named} random ones. If they are built so, state "
         f"{stated}, or disable_collisions in an .srdf beside the URDF.{floor}"
     )
-
-
-def _random_joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
-    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
-    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
-    return random.uniform(lower, upper, (count, len(lower)))

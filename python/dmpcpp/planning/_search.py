@@ -15,18 +15,18 @@ from itertools import islice
 
 import numpy as np
 from scipy.spatial import cKDTree
-from scipy.spatial.transform import Rotation
 
 from dmpcpp import motion
 from dmpcpp._core import Arm, InverseKinematics
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._candidates import drawn_through, far_apart, middle_of, neighbour
 from dmpcpp.planning._clearance import clear_of_itself, require_free_postures
 from dmpcpp.planning._joints import Engine, limit_factor
 from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
 from dmpcpp.planning._shortfall import Shortfall
-from dmpcpp.recordings import Axis, Recording
-from dmpcpp.robot import Follow, farthest_reach, following
+from dmpcpp.recordings import Recording
+from dmpcpp.robot import Follow, farthest_reach, following, random_postures
 from dmpcpp.simulation import default_simulator
 
 __all__ = ["place", "placed"]
@@ -171,10 +171,7 @@ class _Carried:
 
     @property
     def summary(self) -> str:
-        return (
-            f"joints at least {np.degrees(self.limit_margin):.1f} deg within their limits, "
-            f"{self.slowdown:.2f} x the recorded duration by their velocity and acceleration limits"
-        )
+        return f"joints at least {np.degrees(self.limit_margin):.1f} deg within their limits"
 
 
 class _Search:
@@ -187,9 +184,9 @@ class _Search:
         recording = to_follow(recording)
         self.time = recording.time
         self.poses = motion.poses(recording)
-        self.up_axis: Axis = recording.up_axis or "z"
-        self.centre = (recording.position.min(axis=0) + recording.position.max(axis=0)) / 2
-        self.coarse = _far_apart(recording, _middle(recording, self.centre), _COARSE)
+        centre = (recording.position.min(axis=0) + recording.position.max(axis=0)) / 2
+        self.free = Placement(np.zeros(3), up_axis=recording.up_axis or "z", centre=centre)
+        self.coarse = far_apart(recording, middle_of(recording, centre), _COARSE)
         self.arm = arm
         reach = farthest_reach(arm)[1]
         self.floor = min(_FLOOR, _FLOOR_SHARE * reach) if floor is None else floor
@@ -204,11 +201,11 @@ class _Search:
 
     def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the largest candidates of which every coarse pose can be solved, the largest first."""
-        joints = _random_joints(self.arm, random, _CLOUD)
+        joints = random_postures(self.arm, _CLOUD, random)
         reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
         # Twice the usual distance between neighbours in the cloud: closer than that, the arm reaches.
         near = 2.0 * float(np.median(reached.query(reached.data[:500], k=2)[0][:, 1]))
-        candidates = list(self._candidates(random, scale, count))
+        candidates = list(drawn_through(self.poses[self.coarse[0]], self.free, self.arm, random, scale, count))
         shares = [self._share_near(placement, reached, near) for placement in candidates]
         self.closest = candidates[int(np.argmax(shares))]
         within = [placement for placement, share in zip(candidates, shares, strict=True) if share == 1.0]
@@ -230,7 +227,7 @@ class _Search:
     def improved(self, best: _Carried, random: np.random.Generator, scale: tuple[float, float]) -> _Carried:
         """Return the best after small random changes, growing smaller."""
         for step in np.geomspace(1.0, 0.1, min(_IMPROVEMENTS, 1 + _IMPROVING_POSES // len(self.poses))):
-            placement = _changed(best.placement, random, step, scale)
+            placement = neighbour(best.placement, random, step, scale)
             nearby = placement.start + random.normal(0.0, 0.2 * step, self.arm.joint_count)
             held = self.solver.solve(placement.apply(self.poses[0]), nearby)
             if held.ok and self._above_floor(placement):
@@ -247,21 +244,6 @@ class _Search:
         if self.closest is not None:
             self._start(self.closest)
         return self.most.describe(self.follow) if self.most else "no candidate could be tried."
-
-    def _candidates(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> Iterator[Placement]:
-        """Yield placements in which some configuration of the arm holds the motion's middle pose exactly."""
-        middle = self.poses[self.coarse[0]]
-        held = self.arm.forward_kinematics(_random_joints(self.arm, random, count))
-        yaws = random.uniform(-np.pi, np.pi, count)
-        scales = random.uniform(*scale, count)
-        for pose, yaw, size in zip(held, yaws, scales, strict=True):
-            free = Placement(np.zeros(3), yaw, size, up_axis=self.up_axis, centre=self.centre)
-            unplaced = free.apply(middle)
-            yield replace(
-                free,
-                position=pose[:3, 3] - unplaced[:3, 3],
-                tool_rotation=_proper(unplaced[:3, :3].T @ pose[:3, :3]),
-            )
 
     def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
         """Return the share of the coarse positions that the tip can take, a little less if one is too low."""
@@ -299,49 +281,3 @@ class _Search:
         if not report.complete or carried.worth <= better_than:
             return None
         return carried if self.accept is None or self.accept(joints) else None
-
-
-def _random_joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
-    """Return joints (count, n) drawn evenly from the ranges; from one turn for a joint without limits."""
-    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
-    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
-    return random.uniform(lower, upper, (count, len(lower)))
-
-
-def _middle(recording: Recording, centre: Array) -> int:
-    """Return the sample closest to the middle of the path."""
-    return int(np.argmin(np.linalg.norm(recording.position - centre, axis=1)))
-
-
-def _far_apart(recording: Recording, first: int, count: int) -> list[int]:
-    """Return samples each as far as can be from those before it: the extremes of the motion come first.
-
-    Distance counts 1 rad as 0.2 m, about what a wrist needs of a hand's reach.
-    """
-    orientation = Rotation.from_matrix(recording.rotation)
-    chosen = [first]
-    nearest = np.full(len(recording), np.inf)
-    while len(chosen) < min(count, len(recording)):
-        last = chosen[-1]
-        moved = np.linalg.norm(recording.position - recording.position[last], axis=1)
-        turned = (orientation[last].inv() * orientation).magnitude()
-        nearest = np.minimum(nearest, moved + 0.2 * turned)
-        chosen.append(int(np.argmax(nearest)))
-    return chosen
-
-
-def _changed(placement: Placement, random: np.random.Generator, step: float, scale: tuple[float, float]) -> Placement:
-    """Return a neighbour: up to about 5 cm, 10 deg and 10 % away for a step of 1."""
-    turn = Rotation.from_rotvec(random.normal(0.0, 0.15 * step, 3)).as_matrix()
-    return replace(
-        placement,
-        position=placement.position + random.normal(0.0, 0.04 * step, 3),
-        yaw=float(np.remainder(placement.yaw + random.normal(0.0, 0.15 * step) + np.pi, 2 * np.pi) - np.pi),
-        scale=float(np.clip(placement.scale * np.exp(random.normal(0.02, 0.1 * step)), *scale)),
-        tool_rotation=_proper(placement.tool_rotation @ turn),
-    )
-
-
-def _proper(rotation: Array) -> Array:
-    """Return the rotation with the rounding of products taken out."""
-    return Rotation.from_matrix(rotation).as_matrix()

@@ -152,7 +152,7 @@ _BSD, _APACHE, _UR = "BSD-3-Clause", "Apache-2.0", "Universal Robots, terms for 
 CATALOGUE = (
     Listed("panda", (_bullet("franka_panda/panda.urdf"),), "panda_link0", "panda_hand", "panda"),
     Listed("iiwa", (_bullet("kuka_iiwa/model.urdf"),), "lbr_iiwa_link_0", "lbr_iiwa_link_7", "iiwa14"),
-    Listed("xarm6", (_bullet("xarm/xarm6_robot.urdf"), _rd("xarm6", _BSD)), "link_base", "link6"),
+    Listed("xarm6", (_bullet("xarm/xarm6_robot.urdf"), _rd("xarm6", _BSD)), "link_base", "link6", "xarm6"),
     Listed("fr3", (_roboplan("franka_robot_model/fr3.urdf"), _rd("fr3", _APACHE)), "fr3_link0", "fr3_hand_tcp", "fr3"),
     Listed("fer", (_erd("panda_description/urdf/panda.urdf", _APACHE), _rd("fer", _APACHE)), limits="panda"),
     Listed("ur3", (_erd("ur_description/urdf/ur3_robot.urdf"), _rd("ur3_official", _BSD)), limits="ur3"),

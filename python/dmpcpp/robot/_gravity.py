@@ -40,7 +40,7 @@ class Overload:
     sentence: str
 
 
-def random_postures(arm: Arm, count: int = _POSTURES, seed: int = 0) -> Array:
+def random_postures(arm: Arm, count: int = _POSTURES, seed: int | np.random.Generator = 0) -> Array:
     """Return joints (count, n) drawn evenly from the arm's range; a joint without limits from one turn."""
     lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
     upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)

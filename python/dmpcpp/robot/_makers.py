@@ -45,8 +45,18 @@ def _ur(name: str, velocity: Sequence[float], effort: Sequence[float]) -> MakerL
     return MakerLimits(source, velocity=_deg(*velocity), effort=tuple(effort))
 
 
+def _xarm(joints: int) -> MakerLimits:
+    return MakerLimits(
+        "UFACTORY, xArm user manual, ranges of motion parameters: joint speed 180 deg/s, acceleration 1145 deg/s^2, "
+        "jerk 28647 deg/s^3, tool speed 1 m/s",
+        velocity=_deg(180) * joints,
+        acceleration=_deg(1145) * joints,
+        jerk=_deg(28647) * joints,
+        tool_speed=1.0,
+    )
+
+
 _FRANKA = "Franka Control Interface documentation, 'Robot and interface specifications'"
-_XARM = "UFACTORY xArm developer manual: joint speed 180 deg/s, joint acceleration 1145 deg/s^2, tool speed 1 m/s"
 _SMALL_UR, _WRISTS = (56.0, 56.0, 28.0, 12.0, 12.0, 12.0), (180, 180, 180, 360, 360, 360)
 
 MAKERS = {
@@ -81,9 +91,9 @@ MAKERS = {
     "ur5e": _ur("UR5e", (180,) * 6, (150.0, 150.0, 150.0, 28.0, 28.0, 28.0)),
     "ur10e": _ur("UR10e", (120, 120, 180, 180, 180, 180), (330.0, 330.0, 150.0, 56.0, 56.0, 56.0)),
     "ur16e": _ur("UR16e", (120, 120, 180, 180, 180, 180), (330.0, 330.0, 150.0, 56.0, 56.0, 56.0)),
-    "xarm5": MakerLimits(_XARM, velocity=_deg(*(180,) * 5), acceleration=_deg(*(1145,) * 5), tool_speed=1.0),
-    "xarm6": MakerLimits(_XARM, velocity=_deg(*(180,) * 6), acceleration=_deg(*(1145,) * 6), tool_speed=1.0),
-    "xarm7": MakerLimits(_XARM, velocity=_deg(*(180,) * 7), acceleration=_deg(*(1145,) * 7), tool_speed=1.0),
+    "xarm5": _xarm(5),
+    "xarm6": _xarm(6),
+    "xarm7": _xarm(7),
     "rizon4": MakerLimits(
         "Flexiv, specification of the Rizon 4: axis speeds", velocity=_deg(120, 120, 140, 140, 280, 280, 280)
     ),

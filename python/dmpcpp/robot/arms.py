@@ -44,6 +44,8 @@ class KnownArm:
         [rad/s, Nm] of the real machine; None where the URDF holds them already.
     acceleration_limit, jerk_limit : tuple of float or None
         [rad/s^2, rad/s^3]; None where the maker publishes none.
+    tool_speed_limit : float or None
+        m/s; None where the maker publishes none.
     source : str
         Where the limits come from.
     """
@@ -56,6 +58,7 @@ class KnownArm:
     acceleration_limit: tuple[float, ...] | None
     source: str
     jerk_limit: tuple[float, ...] | None = None
+    tool_speed_limit: float | None = None
 
 
 KNOWN: dict[str, KnownArm] = {
@@ -85,8 +88,10 @@ KNOWN: dict[str, KnownArm] = {
         tip="link6",
         velocity_limit=None,
         effort_limit=None,
-        acceleration_limit=None,
-        source="UFACTORY xArm 6: the URDF's own limits (180 deg/s).",
+        acceleration_limit=MAKERS["xarm6"].acceleration,
+        jerk_limit=MAKERS["xarm6"].jerk,
+        tool_speed_limit=MAKERS["xarm6"].tool_speed,
+        source=f"{MAKERS['xarm6'].source}; the URDF's own efforts.",
     ),
 }
 
@@ -190,7 +195,12 @@ def _known_arm(known: KnownArm, base: str | None, tip: str | None) -> Arm:
     default = Arm.from_urdf_file(str(path), base=known.base, tip=known.tip)
     arm = Arm.from_urdf_file(str(path), base=base or known.base, tip=tip or known.tip) if base or tip else default
     limits = MakerLimits(
-        known.source, known.velocity_limit, known.acceleration_limit, known.jerk_limit, known.effort_limit
+        known.source,
+        known.velocity_limit,
+        known.acceleration_limit,
+        known.jerk_limit,
+        known.effort_limit,
+        known.tool_speed_limit,
     )
     return _with_maker_limits(arm, default, limits)
 

@@ -13,6 +13,7 @@ from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.planning import Placement
 from dmpcpp.recordings import Recording
+from dmpcpp.robot import random_postures
 
 __all__ = ["NOISE", "Change", "Noise", "drawn_placement", "noisy", "random_change", "random_motion"]
 
@@ -90,11 +91,11 @@ def drawn_placement(recording: Recording, arm: Arm, random: np.random.Generator)
     Within reach means no further from the base than the tip of 5000 random joints, and above the floor; no
     inverse kinematics is asked whether the arm can follow.
     """
-    reach = arm.forward_kinematics(_joints(arm, np.random.default_rng(0), _CLOUD))[:, :3, 3]
+    reach = arm.forward_kinematics(random_postures(arm, _CLOUD))[:, :3, 3]
     furthest = float(np.linalg.norm(reach, axis=1).max())
     middle = len(recording) // 2
     for _ in range(_DRAWS):
-        held = arm.forward_kinematics(_joints(arm, random, 1))[0]
+        held = arm.forward_kinematics(random_postures(arm, 1, random))[0]
         placement = Placement(held[:3, 3], yaw=float(random.uniform(-np.pi, np.pi)), centre=recording.position[middle])
         tool = (placement.rotation @ recording.rotation[middle]).T @ held[:3, :3]
         placement = replace(placement, tool_rotation=Rotation.from_matrix(tool).as_matrix())
@@ -122,9 +123,3 @@ def _turned(turn: Array, span: float) -> Array:
 def _largest_angle(turn: Array) -> float:
     quaternion = Rotation.from_rotvec(turn).as_quat()
     return float(2.0 * np.arccos(np.clip(np.abs(quaternion @ quaternion.T).min(), 0.0, 1.0)))
-
-
-def _joints(arm: Arm, random: np.random.Generator, count: int) -> Array:
-    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
-    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
-    return random.uniform(lower, upper, (count, arm.joint_count))

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Mapping
 from concurrent.futures import as_completed
 from contextlib import closing
 from itertools import product
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from dmpcpp.checks import accepted_names
 from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.robot import Surroundings
 from dmpcpp.trials._processes import workers
 from dmpcpp.trials.generality._motions import NOISE
 from dmpcpp.trials.generality._trial import Result, Trial, attempt
 
 __all__ = ["kept", "run", "trials"]
+
+_CHOICE = {"base": None, "tip": None, "tool": None, "package_path": [], "limits": {}}
+_OPTIONS = {"follow": None, "dynamics": "full", "surroundings": Surroundings().to_dict()}
 
 
 def trials(
@@ -25,10 +30,12 @@ def trials(
     noises: Iterable[str] = tuple(NOISE),
     seed: int = 0,
     accept: Iterable[str] = (),
+    choice: Mapping[str, Any] | None = None,
+    options: Mapping[str, Any] | None = None,
 ) -> list[Trial]:
     """Return the trials of `count` motions with every arm at every level of noise, motion by motion.
 
-    `accept` names the checks that may stay unjudged, see `imitation.imitate`.
+    `accept`, `choice` and `options` are those of `Trial`.
 
     Raises
     ------
@@ -46,7 +53,13 @@ def trials(
     if not arms:
         raise InvalidArgument("arms: none, expected at least one.")
     accepted = accepted_names(accept)
-    return [Trial(arm, noise, seed, index, accepted) for index, arm, noise in product(range(count), arms, noises)]
+    how = (accepted, _other_than(_CHOICE, choice), _other_than(_OPTIONS, options))
+    return [Trial(arm, noise, seed, index, *how) for index, arm, noise in product(range(count), arms, noises)]
+
+
+def _other_than(usual: Mapping[str, Any], stated: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Leave out what is as usual: a trial is the same whether that was stated or not."""
+    return {name: value for name, value in (stated or {}).items() if name not in usual or value != usual[name]}
 
 
 def run(
@@ -77,15 +90,15 @@ def run(
     if jobs < 1:
         raise InvalidArgument(f"jobs: {jobs}, expected 1 or more.")
     path = Path(path)
-    results = {result.trial: result for result in kept(path)}
-    missing = [trial for trial in wanted if trial not in results]
+    results = {result.trial.key: result for result in kept(path)}
+    missing = [trial for trial in wanted if trial.key not in results]
     _tell(progress, wanted, results)
     with closing(_made(missing, jobs)) as made:
         for result in made:
             _append(path, result)
-            results[result.trial] = result
+            results[result.trial.key] = result
             _tell(progress, wanted, results)
-    return [results[trial] for trial in wanted]
+    return [results[trial.key] for trial in wanted]
 
 
 def kept(path: str | PathLike[str]) -> list[Result]:
@@ -106,9 +119,9 @@ def _parsed(line: str, where: str) -> Result:
         raise InvalidArgument(f"{where}: no result of a trial. Remove the file to begin anew.") from None
 
 
-def _tell(progress: Callable[[int, int, int], None] | None, wanted: list[Trial], results: dict[Trial, Result]) -> None:
+def _tell(progress: Callable[[int, int, int], None] | None, wanted: list[Trial], results: dict[str, Result]) -> None:
     if progress:
-        done = [results[trial] for trial in wanted if trial in results]
+        done = [results[trial.key] for trial in wanted if trial.key in results]
         progress(len(done), sum(not result.ok for result in done), len(wanted))
 
 

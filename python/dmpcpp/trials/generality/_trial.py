@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import time
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +19,7 @@ from dmpcpp.imitation import Imitation
 from dmpcpp.learning import learn
 from dmpcpp.planning import clear_of_itself
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import arms
+from dmpcpp.robot import Surroundings, arms, following, without_dynamics
 from dmpcpp.simulation import default_simulator
 from dmpcpp.trials.generality._motions import NOISE, drawn_placement, noisy, random_change, random_motion
 
@@ -30,9 +33,20 @@ _PLACES = 3  # searched at most
 
 @dataclass(frozen=True)
 class Trial:
-    """Which trial: motion `index` of `seed` for an arm (see `arms.load`) at a level of NOISE.
+    """Which trial: motion `index` of `seed` for an arm at a level of NOISE.
 
-    `accept` names the checks that may stay unjudged, see `imitation.imitate`.
+    Attributes
+    ----------
+    arm : str
+        Name or URDF, as `arms.load` takes it.
+    noise : str
+    seed, index : int
+    accept : tuple of str
+        Checks that may stay unjudged, see `imitation.imitate`.
+    choice : mapping
+        What `arms.load` takes by keyword, for JSON.
+    options : mapping
+        `follow`, `dynamics` and `surroundings` (`Surroundings.to_dict`) of `imitation.imitate`.
     """
 
     arm: str
@@ -40,6 +54,18 @@ class Trial:
     seed: int
     index: int
     accept: tuple[str, ...] = ()
+    choice: Mapping[str, Any] = field(default_factory=dict)
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def key(self) -> str:
+        """The same for trials that are the same."""
+        return json.dumps(asdict(self), sort_keys=True)
+
+    def imitation_options(self) -> dict[str, Any]:
+        """Return what `imitation.imitate` takes by keyword."""
+        around = Surroundings.of(self.options.get("surroundings"))
+        return {**self.options, "surroundings": around, "accept": self.accept}
 
 
 @dataclass(frozen=True)
@@ -113,7 +139,7 @@ def attempt(trial: Trial) -> Result:
     run: Imitation | None = None
     places = 0
     if not cause:
-        run, places, cause = _executed(changed, arms.load(trial.arm), trial, random)
+        run, places, cause = _executed(changed, arms.load(trial.arm, **trial.choice), trial, random)
     return Result(
         trial=trial,
         ok=not cause,
@@ -151,21 +177,27 @@ def _executed(
 ) -> tuple[Imitation | None, int, str]:
     """The last run, how many places were searched, and what failed in the last of them."""
     drawn = drawn_placement(changed, arm, random).apply_to(changed)
-    if _follows(drawn, arm):
-        run, cause = _imitated(drawn, arm, place=False, accept=trial.accept)
+    how = trial.imitation_options()
+    if _follows(drawn, arm, trial):
+        run, cause = _imitated(drawn, arm, place=False, **how)
         if not cause:
             return run, 0, ""
     for place in range(_PLACES):
-        run, cause = _imitated(changed, arm, seed=trial.seed + place, accept=trial.accept)
+        run, cause = _imitated(changed, arm, seed=trial.seed + place, **how)
         if run is None or not cause:
             break
     return run, place + 1, cause
 
 
-def _follows(recording: Recording, arm: Arm) -> bool:
+def _follows(recording: Recording, arm: Arm, trial: Trial) -> bool:
     """Whether the arm follows it where it is, without touching itself or the floor."""
-    joints = InverseKinematics(arm).follow(motion.poses(recording), times=recording.time, thorough=False)
-    return joints.report.complete and clear_of_itself(arm, default_simulator)(joints)
+    around = Surroundings.of(trial.options.get("surroundings"))
+    engine = partial(default_simulator, floor=around.floor, ignored=around.ignored)
+    solver = InverseKinematics(arm, weight=following(arm, trial.options.get("follow")).weight)
+    joints = solver.follow(motion.poses(recording), times=recording.time, thorough=False)
+    if trial.options.get("dynamics") == "none":
+        arm = without_dynamics(arm)
+    return joints.report.complete and clear_of_itself(arm, engine)(joints)
 
 
 def _imitated(recording: Recording, arm: Arm, **options: Any) -> tuple[Imitation | None, str]:
