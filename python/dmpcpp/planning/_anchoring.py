@@ -1,4 +1,4 @@
-"""A motion hung up at one point: its start, its goal, or the shoulder of the person who made it."""
+"""Placement anchored at the start, the goal or the shoulder."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _FEW = 5  # every fifth of the coarse poses is looked at first: most candidates 
 
 @dataclass(frozen=True)
 class Reach:
-    """How much of a motion an arm can take up, pose by pose, within its joint limits.
+    """Poses of a motion the arm reaches within joint limits, each solved on its own.
 
     Attributes
     ----------
@@ -126,7 +126,8 @@ def anchor_within_reach(
 
     Five scales, 24 yaws and 24 random tool rotations are tried, less what is given. The largest whose path the arm can
     follow from end to end is taken; else the one of whose poses it reaches most. The share of the poses that are
-    reached within the joint limits, each by itself, stands in the placement's note.
+    reached within the joint limits, each by itself, stands in the placement's note. If none can be followed, `start`
+    is None; nothing is raised.
 
     Parameters
     ----------

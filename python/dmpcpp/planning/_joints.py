@@ -50,16 +50,15 @@ class Solution:
 
 @dataclass(frozen=True, eq=False)
 class Slowed:
-    """Joints within the limits.
+    """Trajectory slowed down to the limits.
 
     Attributes
     ----------
     joints : JointTrajectory
     factor : float
-        On their duration, >= 1.
+        Duration over original duration, >= 1.
     possible : bool
-        False where no duration is enough: the motors cannot even hold the arm. The joints are as slow as the other
-        limits ask for.
+        False if no finite duration meets the limits (`torque_share` of the effort limits); `joints` then violates one.
     """
 
     joints: JointTrajectory
@@ -92,22 +91,24 @@ def solve(
     duration : float, optional
         s; by default as demonstrated.
     start : array_like (n,), optional
-        Suggested joints at the first pose; where the path cannot be followed from there, others are searched.
+        Initial guess at the first pose; other branches are searched if it fails.
     stand : array_like (n,), optional
-        Joints in which the arm stands: the path is followed from there or not at all.
+        Current joints; the path is followed only from here.
     accept : JointTrajectory -> bool, optional
         A last word on joints that follow the path; where it refuses, other branches are tried.
     slow_down : bool
         Take longer where velocity or acceleration limits ask for it.
     engine : callable, optional
-        A physics engine; where given, the effort limits hold too.
+        Also slow down to the effort limits. If no duration meets them, only the other limits are applied; `slowed`
+        reports that as `possible`.
     follow : Follow
         The part of each pose that the arm follows.
 
     Raises
     ------
     InvalidArgument
-        What `PoseDmp.rollout` and `InverseKinematics.follow` refuse.
+        What `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An incomplete path does not raise: see
+        `joints.report.complete`.
     """
     wanted = model.duration if duration is None else duration
     dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * model.options.basis_count)

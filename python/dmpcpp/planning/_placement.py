@@ -53,8 +53,8 @@ class Placement:
         m, the point of the recording's world that scaling leaves in place; `place` takes the middle of the
         box around the path.
     start : array_like (n,), optional
-        Joints with which an arm holds the first pose of the motion so that it gets through all of it; hand
-        them to `InverseKinematics.follow(..., start=...)`. `place` sets them.
+        Joints at the first pose from which the whole motion can be followed: pass them to
+        `InverseKinematics.follow(..., start=...)`. `place` sets them.
     note : str
         How the placement was found, for reports.
 
@@ -148,7 +148,7 @@ def _owned(name: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
 
 
 Accept = Callable[[JointTrajectory], bool]
-"""A last word on joints that carry the whole motion, for what kinematics does not see."""
+"""Called with each complete joint trajectory; False rejects it (e.g. self-collision)."""
 
 EFFORT: dict[str, Any] = {"starts": 8, "anchors": 3, "thorough": False}
 """Of the search for joints along one candidate's path."""

@@ -115,11 +115,12 @@ def plan(
     duration : float, optional
         s; the demonstrated one unless given.
     start : (n,), optional
-        Joints where the arm stands; by default the best are searched.
+        Current joints [rad, m]; the path must be followed from here. Default: searched.
     slow_down : bool
         Take longer where velocity or acceleration limits ask for it; otherwise a check says so.
     simulator : callable, optional
-        In whose geometry the path is looked at for contacts with the arm itself and the floor.
+        Engine for contact checks, e.g. `simulation.default_simulator`. None (default): no collision check; `ok` and
+        joints.csv do not cover collisions.
     accept : iterable of str
         Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
         by.
@@ -130,8 +131,9 @@ def plan(
     Raises
     ------
     InvalidArgument
-        A model that is not one of poses, an arm that its motors cannot hold up on the way, or what `PoseDmp.rollout`
-        and `InverseKinematics.follow` refuse.
+        Not a PoseDmp, goal out of reach, unknown name in `accept`, too few joints for `follow`, links that always
+        touch, motors that cannot hold the arm, or what `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An
+        unreachable path does not raise: `ik_position_residual` or `ik_angle_residual` fails.
     """
     if not isinstance(model, PoseDmp):
         raise InvalidArgument(

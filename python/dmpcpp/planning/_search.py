@@ -71,13 +71,12 @@ def place(
         from their limits and need not be slowed down out of proportion. Unless given 0.25 to 1, and where nothing is
         carried so, smaller ones down to where the motion is as large as 15 % of the arm's reach.
     floor : float, optional
-        m, the lowest height of the tip above the base; leave room for what the tip carries. Unless given 0.15, or a
-        fifth of the arm's reach if that is less.
+        Lowest allowed tip height above the base [m]; leave room for what the tip carries. Not the ground of
+        `Surroundings`. Default: 0.15, or a fifth of the arm's reach if less.
     candidates : int
         How many random placements are tried; ten times as many if none of them carries the motion.
     accept : JointTrajectory -> bool, optional
-        A last word on joints that carry the whole motion, for what kinematics does not see: an arm that
-        touches itself, for instance.
+        Called with each complete joint trajectory; False rejects it (e.g. self-collision).
     follow : str, optional
         "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
         than six joints needs it.
