@@ -74,7 +74,7 @@ def angle_errors(reference: ArrayLike, poses: ArrayLike) -> Array:
 
 
 def rotation_angles(reference: ArrayLike, rotations: ArrayLike) -> Array:
-    """The same of two series of rotations (T, 3, 3)."""
+    """Geodesic angles (T,) [rad], 0 to pi, between rotations (T, 3, 3)."""
     a, b = _rotations("reference", reference), _rotations("rotations", rotations)
     _same_shape(a, b)
     return _angles(a, b)
@@ -91,6 +91,11 @@ def best_lag(reference: ArrayLike, signal: ArrayLike, dt: float, max_lag: float 
 
     The lag within +-``max_lag`` whose overlapping samples have the least mean squared distance, refined
     between samples by the parabola through the three lowest. Positive: the signal comes late.
+
+    Raises
+    ------
+    InvalidArgument
+        Empty, non-finite or mismatched series, fewer than 2 samples, or dt <= 0.
     """
     a, b = _series("reference", reference), _series("signal", signal)
     _same_shape(a, b)
@@ -112,6 +117,11 @@ def sparc(speed: ArrayLike, rate: float, *, cutoff: float = 10.0, threshold: flo
     ``threshold``; the signal is padded with zeros to 2^(ceil(log2 T) + padding) samples. Independent of
     amplitude and of duration. Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet, "On the analysis of
     movement smoothness", JNER 2015.
+
+    Raises
+    ------
+    InvalidArgument
+        An empty or non-finite series, no motion, or rate <= 0.
     """
     v = _series("speed", speed)[:, 0]
     _positive("rate", rate)
@@ -137,6 +147,11 @@ def log_dimensionless_jerk(velocity: ArrayLike, rate: float) -> float:
     derivative by second differences. A minimum-jerk reach has -ln(204.8) = -5.32. Sensitive to noise: filter
     first. Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet, "On the analysis of movement
     smoothness", JNER 2015.
+
+    Raises
+    ------
+    InvalidArgument
+        A non-finite series, fewer than 3 samples, no motion, or rate <= 0.
     """
     v = _series("velocity", velocity)
     _positive("rate", rate)
@@ -168,6 +183,11 @@ def dtw(a: ArrayLike, b: ArrayLike) -> float:
     ``similaritymeasures.dtw`` and ``dtaidistance`` with ``inner_dist="euclidean"``, over max(T, S). Sakoe and
     Chiba, "Dynamic programming algorithm optimization for spoken word recognition", IEEE TASSP 1978. Blind to a
     lag and to the tempo. Time and memory (a byte a pair) grow with T S.
+
+    Raises
+    ------
+    InvalidArgument
+        Empty or non-finite series, or different numbers of columns.
     """
     p, q = _series("a", a), _series("b", b)
     if p.shape[1] != q.shape[1]:
@@ -176,9 +196,14 @@ def dtw(a: ArrayLike, b: ArrayLike) -> float:
 
 
 def margin(values: ArrayLike, limit: ArrayLike) -> float:
-    """What is left of a limit: 1 - max |values| / limit, of series (T, n) with limits (n,) or one for all.
+    """Smallest relative margin [1]: 1 - max |values| / limit; values (T, n), limit (n,) or scalar, > 0.
 
     1 at rest, 0 at a limit, negative beyond.
+
+    Raises
+    ------
+    InvalidArgument
+        An empty or non-finite series, or limits that are not positive or do not match it.
     """
     array, most = _series("values", values), np.asarray(limit, dtype=np.float64)
     if most.shape not in ((), (array.shape[1],)) or not (most > 0.0).all():

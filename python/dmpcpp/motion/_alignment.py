@@ -56,9 +56,9 @@ def aligned(
     rounds : int
         1 or more; with a reference one round is all there is.
     angle_weight : float
-        m/rad, what a turn counts beside a distance.
+        Weight of rotation relative to translation [m/rad].
     band : float, optional
-        See `dmpcpp.align`.
+        Largest offset [samples] of a pair from the diagonal, widened where no path fits; None: unlimited.
 
     Returns
     -------

@@ -77,7 +77,8 @@ def fill(recording: Recording, longest: float = LONGEST_GAP) -> Recording:
     Raises
     ------
     InvalidArgument
-        A longer gap, named by its time; split the recording there, or allow it. Or fewer than 8 known samples.
+        A longer gap, named by its time; split the recording there, or allow it. Fewer than 8 known samples. Or more
+        than 10 filled samples per recorded one, or more than 10^6.
     """
     positive("longest", longest)
     recording = _trimmed(recording)
@@ -190,7 +191,7 @@ def _skipped(recording: Recording, found: tuple[Gap, ...]) -> Array:
 def outliers(
     recording: Recording, *, half_width: int = 5, threshold: float = 5.0, distance: float = 5e-3, angle: float = 0.05
 ) -> Recording:
-    """Mark samples as missing that lie far from where their neighbours say they should: `fill` replaces them.
+    """Mark outliers as missing (NaN); `fill` replaces them.
 
     A Hampel identifier (Hampel, "The influence curve and its role in robust estimation", 1974) that goes with the
     motion: the neighbours are carried along the median velocity of the window to the sample's time; an outlier lies

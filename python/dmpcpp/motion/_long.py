@@ -16,7 +16,7 @@ _MARGIN = 0.2  # s kept before and behind the part
 
 
 def thinned(recording: Recording, most: int = LONG) -> Recording:
-    """Return every k-th sample of a recording of more than `most` samples, any other as it is."""
+    """Keep every k-th sample so that at most `most` remain."""
     every = -(-len(recording) // most)
     if every <= 1:
         return recording

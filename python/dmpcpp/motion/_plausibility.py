@@ -51,10 +51,8 @@ def plausible(recording: Recording) -> Recording:
 def implausible(recording: Recording) -> str:
     """Return why a recording cannot be the motion of a hand, and what to do; "" of one that can.
 
-    It stands still: all of it lies in a box with a diagonal of less than 1 mm, turned by less than 0.5 deg from the
-    first sample; or it stays within five times its own noise. Or it is too fast: its path is longer than 30 m/s times a
-    window of 0.05 s, or times all of a shorter recording. Or it is elsewhere within one step, and stays there. A single
-    sample that lies elsewhere does not count, and samples may be missing.
+    Reasons: at rest (box diagonal < 1 mm and turn < 0.5 deg, or within 5x its noise); > 30 m/s over 50 ms, or over all
+    of a shorter recording; a lasting jump. Single outliers and gaps are ignored.
     """
     there = ~recording.missing
     time, position = recording.time[there], recording.position[there]

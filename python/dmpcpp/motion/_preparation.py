@@ -30,7 +30,7 @@ class Preparation:
     longest_gap : float
         s; longer gaps are refused, others filled.
     outliers : bool
-        Whether samples that lie far from where their neighbours say they should are replaced.
+        Replace outliers (`motion.outliers`).
     segment : int, optional
         Use this part of the motion only, counted from 1, of those between its rests (`motion.segments`).
     repetition : int or "all", optional
@@ -40,7 +40,7 @@ class Preparation:
     low_pass : float, optional
         Hz; take out what is faster. A recording with uneven steps is resampled at its own mean rate for it.
     smooth : bool
-        Take out the noise that is found.
+        Apply `motion.smooth`.
     """
 
     start: float = 0.0

@@ -42,8 +42,8 @@ def segments(
 ) -> list[Recording]:
     """Cut at the rests: the parts whose speed stays above `rest` times its peak.
 
-    Where the noise that is found in the recording would pass for motion, the speed is that of the motion below a
-    frequency at which it does not, 2 to 10 Hz; the history says. The parts themselves are as recorded.
+    If noise would pass for motion, rests are detected in speed low-passed at 2 to 10 Hz (see history); the returned
+    parts are unfiltered.
 
     Parameters
     ----------
@@ -60,6 +60,11 @@ def segments(
     -------
     list of Recording
         In order, each from its own time 0; none for a recording that never moves.
+
+    Raises
+    ------
+    InvalidArgument
+        Missing samples; `rest` outside (0, 1).
     """
     _check_share("rest", rest)
     spans, how = _segment_spans(recording, rest, shortest, pause, angle_weight)
@@ -109,6 +114,11 @@ def cycles(
     -------
     list of Recording
         One for each cycle, in order, each from its own time 0.
+
+    Raises
+    ------
+    InvalidArgument
+        Missing samples; `rest` outside (0, 1); or an invalid `home`.
     """
     _check_share("rest", rest)
     spans, how = _cycle_spans(recording, home, rest, angle_weight)

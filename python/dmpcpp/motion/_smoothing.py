@@ -50,8 +50,9 @@ def noise(recording: Recording) -> Noise:
 
 
 def white_noise(time: Array, values: Array) -> float:
-    """Return the standard deviation, along one axis, of the noise in values (T, d) at times (T,) [s] that are free in
-    three directions: positions of a marker, say. NaN where they are missing; see `noise`.
+    """Standard deviation per axis of white noise in values (T, d) at times (T,) [s], assuming 3 degrees of freedom.
+
+    NaN: missing. 0 if no seven consecutive samples are known. See `noise`.
     """
     ends = range(0, max(1, len(time) - _DIFFERENCED + 1), _BLOCK)  # in blocks, so that memory stays small
     parts = [slice(k, k + _BLOCK + _DIFFERENCED - 1) for k in ends]

@@ -37,7 +37,7 @@ def crop(recording: Recording, start: float = 0.0, end: float | None = None) -> 
 
 
 def resample(recording: Recording, rate: float) -> Recording:
-    """Evaluate the motion at even steps of 1/rate [Hz] from its start; interpolating C2 splines in between.
+    """Resample at a uniform `rate` [Hz] by interpolating C2 splines.
 
     Positions by a cubic spline (not-a-knot), orientations by scipy's RotationSpline, whose angular velocity
     and acceleration are continuous. Nothing is smoothed; a rate below the recording's drops what it cannot
