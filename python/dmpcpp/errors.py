@@ -1,6 +1,6 @@
 """The errors that dmpcpp raises on purpose; each message says what came, what was expected and what to do.
 
-``InvalidArgument.argument`` is the name of the argument that cannot be used, "" where it is no one of them.
+``InvalidArgument.argument`` is the name of the argument that cannot be used, "" if no single argument is at fault.
 """
 
 from __future__ import annotations

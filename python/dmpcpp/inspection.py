@@ -146,7 +146,7 @@ class Inspection:
 
     @property
     def ok(self) -> bool:
-        """Whether one body was read with nothing left to state and no problem."""
+        """True if a body was read, nothing must be supplied and there is no problem."""
         return len(self.bodies) > 0 and not self.needed and not self.problems
 
     def summary(self) -> dict[str, Any]:

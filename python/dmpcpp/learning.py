@@ -1,4 +1,4 @@
-"""A demonstration learned as the core learns it, what was found in it, and the promise that it is reproduced."""
+"""Learn recordings: noise estimate, fit, reproduction check."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ def learn(
     ----------
     demonstration : PoseDemonstration
     basis_count : int, optional
-        The number of kernels instead.
+        Number of kernels; default: automatic.
     noise : Noise, optional
         Has no effect, which a warning says: noise is found in the demonstration itself. Goes in 0.3.
     smooth : bool
-        Whether noise may be taken out.
+        Smooth if noise is detected.
     """
     if noise is not None:
         warnings.warn(
@@ -88,7 +88,7 @@ class Evidence:
         ]
         found = " and ".join(part for part in parts if part)
         if not found:
-            return "No noise found that could be told from the motion: the samples are learned as they are."
+            return "No measurement noise detected; samples are learned unchanged."
         return f"Noise of {found} found and {'smoothed out' if self.smoothed else 'learned with the motion'}."
 
     def to_dict(self) -> dict[str, Any]:
@@ -172,8 +172,7 @@ class Lesson(Checked):
     noise : tuple of Noise
         Found in each recording.
     checks : tuple of Check
-        Whether a single recording is reproduced; where several were learned together, which no model can reproduce
-        all, those that do not belong to the others.
+        One recording: reproduction error. Several: one failed check for each that does not match the others.
     evidence : tuple of Evidence
         What each recording shows of noise, and whether it was taken out.
     """

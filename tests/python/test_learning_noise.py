@@ -76,7 +76,7 @@ def test_evidence_is_a_sentence_and_numbers():
     assert found.sentence.startswith("Noise of ") and found.sentence.endswith("smoothed out.")
     assert json.loads(json.dumps(found.to_dict()))["position"]["kind"] == "white"
     clean = learning.evidence(motion.demonstration(reaches(1)))
-    assert not clean.smoothed and clean.sentence.startswith("No noise found")
+    assert not clean.smoothed and clean.sentence.startswith("No measurement noise")
     kept = learning.evidence(motion.demonstration(noisy(1e-3)), smooth=False)
     assert kept.sentence.endswith("learned with the motion.")
 

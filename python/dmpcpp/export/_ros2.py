@@ -76,7 +76,7 @@ def read_ros2_yaml(path: str | PathLike[str]) -> JointSamples:
     FileError
         The file cannot be read.
     InvalidArgument
-        A line that does not belong there, named by its number; or numbers that no robot should get.
+        A line that does not belong there, named by its number; non-finite values or non-increasing times.
     """
     path = Path(path)
     names: list[str] = []
@@ -140,7 +140,7 @@ def read_ros2_bag(folder: str | PathLike[str], topic: str | None = None) -> Join
     FileError
         There is no readable bag.
     InvalidArgument
-        It holds no such message (on that topic), or numbers that no robot should get.
+        It holds no such message (on that topic), or non-finite values or non-increasing times.
     MissingDependency
         rosbags is not installed.
     """

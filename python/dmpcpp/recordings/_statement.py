@@ -27,7 +27,7 @@ __all__ = ["Stated"]
 
 @dataclass(frozen=True)
 class Stated:
-    """The caller's word on a file; each reader takes those fields that its format leaves open.
+    """Facts the file does not record; each reader uses those that its format leaves open.
 
     Parameters
     ----------

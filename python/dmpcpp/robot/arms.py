@@ -39,7 +39,7 @@ class KnownArm:
     urdf : str
         Path inside the installed ``pybullet_data`` package.
     base, tip : str
-        Links between which the arm stands.
+        Base and tip link of the chain.
     velocity_limit, effort_limit : tuple of float or None
         [rad/s, Nm] of the real machine; None where the URDF holds them already.
     acceleration_limit, jerk_limit : tuple of float or None
@@ -168,10 +168,10 @@ def load(
     name_or_path : str or Path
         A name as `find` takes it, or the path of a file.
     base, tip : str, optional
-        Links between which the arm stands; chosen unless given (`Arm.choice` says how).
+        Base and tip link of the chain; chosen unless given (`Arm.choice` says how).
     tool : array_like (3,), (6,) or (4, 4), optional
-        The frame that follows the hand, in that of the tip: x, y, z [m], or with roll, pitch and yaw [rad] as a
-        URDF's <origin>, or a pose. The tip itself unless given.
+        Tool frame relative to the tip link: x, y, z [m], or with roll, pitch and yaw [rad] as a URDF's <origin>, or
+        a pose. Default: the tip itself.
     package_path : sequence of str
         Where packages of `package://` paths are: NAME=DIR, or DIR that holds them.
     limits : mapping, optional

@@ -37,7 +37,7 @@ def torque_duration_factor(
     Returns
     -------
     float
-        Below 1 the motion may be that much faster; infinity where a pose cannot even be held.
+        Factor; below 1 the motion may be that much faster; inf if a pose cannot be held.
     """
     limit = share * np.minimum(arm.effort_limit, np.finfo(np.float64).max)
     with simulator(arm, 1e-3) as engine:
