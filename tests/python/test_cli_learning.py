@@ -80,4 +80,4 @@ def test_a_time_that_the_joints_cannot_keep_is_stretched_or_refused_as_asked(tmp
         "summary.json",
     }  # no older joints
     told = run(*hasty[:-1], "--exact-duration", cwd=tmp_path)
-    assert "not feasible" in told.stdout and "without joints.csv: this plan is not for a robot" in told.stdout
+    assert "not feasible" in told.stdout and "without joints.csv: do not run this plan on a robot" in told.stdout

@@ -228,4 +228,4 @@ def test_an_unreachable_path_fails_its_checks_and_says_where(tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     failed = {check["name"] for check in summary["checks"] if not check["ok"]}
     assert summary["verdict"] == "fail" and "ik_position_residual" in failed
-    assert "not verified: " in done.stdout and "written to out/; its joints.csv is not for a robot" in done.stdout
+    assert "not verified: " in done.stdout and "written to out/; do not run its joints.csv on a robot" in done.stdout

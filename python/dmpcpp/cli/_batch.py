@@ -38,8 +38,12 @@ if TYPE_CHECKING:
 @follow_option
 @contact_options
 @click.option("--pattern", default="*", show_default=True, metavar="GLOB", help="Which files, such as **/*.bvh.")
-@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1, or less).")
-@click.option("--no-place", is_flag=True, help="Use the poses as tip poses in the arm's base frame.")
+@click.option(
+    "--scale",
+    metavar="S|MIN:MAX",
+    help="Scale of positions, or its range (default: 0.25:1; smaller if none is feasible).",
+)
+@click.option("--no-place", is_flag=True, help="Skip placement: poses are already tip poses in the base frame.")
 @click.option("--basis-count", type=click.IntRange(1, 100000), help="Number of kernels (default: as many as needed).")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the placement.")
 @click.option(
@@ -58,7 +62,7 @@ if TYPE_CHECKING:
     default="dmpcpp-batch",
     show_default=True,
     type=click.Path(file_okay=False, path_type=Path),
-    help="Folder for a folder a recording, outcomes.csv, index.html and config.toml.",
+    help="Output folder: one subfolder per recording, outcomes.csv, index.html and config.toml.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table.")
 def batch(

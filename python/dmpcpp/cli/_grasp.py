@@ -41,7 +41,7 @@ def _bottle_options(command: Callable[..., None]) -> Callable[..., None]:
             "--friction",
             type=float,
             metavar="MU",
-            help="Friction coefficient of the bottle, times the fingers' 1 (default: 0.8).",
+            help="Sliding friction of the bottle (fingers: 1; the product counts; default: 0.8).",
         ),
         click.option(
             "--seed", type=click.IntRange(0), help="Random seed: draws place, yaw and a position error of 4 mm."
@@ -56,7 +56,7 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
             "--recording", type=click.Path(path_type=Path), metavar="FILE", help="A reach of your own, in any format."
         ),
         click.option("--body", metavar="NAME", help="Body whose motion is used; required if the file holds several."),
-        click.option("--format", "format_", metavar="NAME", help="deepmimic, tum, table, arrays; by default its own."),
+        click.option("--format", "format_", metavar="NAME", help="File format (default: recognised)."),
         click.option("--unit", metavar="m|cm|mm", help="Unit of lengths, where the format does not say it."),
         click.option("--rate", type=float, metavar="HZ", help="Samples per second of a file without times."),
         click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
@@ -71,7 +71,12 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
 @_bottle_options
 @_recording_options
 @follow_option
-@click.option("--video", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE", help="A .mp4, .gif or .png.")
+@click.option(
+    "--video",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write a film (.mp4, .gif) or still (.png).",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON instead of the table.")
 def grasp(
     x: float | None,

@@ -94,7 +94,7 @@ def _run_options(
 @arm_options
 @follow_option
 @contact_options
-@_run_options(None, "dmpcpp-demo, followed by the clip, body and arm that were stated otherwise")
+@_run_options(None, "dmpcpp-demo[-CLIP][-BODY][-ARM][-BASE][-TIP], non-default values only")
 def demo(clip: str, body: str, **run: Any) -> None:
     """Run `dmpcpp imitate` on a human motion that ships with PyBullet.
 
@@ -253,7 +253,7 @@ def _print(run: Imitation, out: Path) -> None:
     console.print(checks_table(run.checks))
     assumed, changed = assumptions(run.log.arm), run.changed
     print_verdict(console, run, _how(run), assumed=assumed, changed=changed, advice=_advice(run))
-    caution = "" if run.ok else "; its joints.csv is not for a robot"
+    caution = "" if run.ok else "; do not run its joints.csv on a robot"
     console.print(f"written to {out}/{caution}", soft_wrap=True, markup=False)
 
 

@@ -52,7 +52,11 @@ if TYPE_CHECKING:
 @optional_arm_options("Place the first recording in this arm's workspace, the others with it.")
 @follow_option
 @contact_options
-@click.option("--scale", metavar="S|MIN:MAX", help="Scale of positions, or its range (default: 0.25:1, or less).")
+@click.option(
+    "--scale",
+    metavar="S|MIN:MAX",
+    help="Scale of positions, or its range (default: 0.25:1; smaller if none is feasible).",
+)
 @click.option(
     "--seed", default=0, show_default=True, type=click.IntRange(0), help="Random seed of the placement search."
 )
@@ -85,8 +89,8 @@ def fit(
 ) -> None:
     """Learn the motion in FILE, or in several FILEs of one motion together, and write a model file.
 
-    A FILE with several takes gives all of them with --episode all, --where COLUMN=all or --repetition all. Where takes
-    do not belong together no model is written, and one of before is renamed to NAME.old.
+    A FILE with several takes gives all of them with --episode all, --where COLUMN=all or --repetition all. If a take
+    does not match the others, no model is written (exit status 3) and an earlier model file is renamed to NAME.old.
 
     Without --arm the model is one of the recorded poses, z up; with it, of poses of the arm's tip in its base frame,
     ready for `dmpcpp plan`.
@@ -229,7 +233,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     default=DEFAULT_ENGINE,
     show_default=SHOWN_ENGINE,
     type=engines("none"),
-    help="Physics engine that checks the path for contacts.",
+    help="Physics engine that checks the path for contacts; none: no contact check.",
 )
 @accept_option
 @click.option(
@@ -294,8 +298,10 @@ def _print_plan(found: JointPlan, out: Path) -> None:
     if found.contacts:
         console.print(f"contacts: {found.contacts.describe()}", style="dim", soft_wrap=True, markup=False)
     console.print(checks_table(found.checks))
-    duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x what was wanted"
-    how = f"{duration}; written to {out}/" + ("" if found.ok else ", without joints.csv: this plan is not for a robot")
+    duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x the requested duration"
+    how = f"{duration}; written to {out}/" + (
+        "" if found.ok else ", without joints.csv: do not run this plan on a robot"
+    )
     if found.follow.describe():
         how += f". {found.follow.describe()}."
     print_verdict(console, found, how, assumed=assumptions(found.arm), words=("planned", "not feasible"))

@@ -14,7 +14,12 @@ from dmpcpp.errors import InvalidArgument
 
 __all__ = ["accept_option", "dynamics_option", "limit_options", "names", "taken_limits"]
 
-_KINDS = {"velocity": "rad/s", "acceleration": "rad/s^2", "jerk": "rad/s^3", "effort": "Nm"}
+_KINDS = {
+    "velocity": "rad/s or m/s",
+    "acceleration": "rad/s^2 or m/s^2",
+    "jerk": "rad/s^3 or m/s^3",
+    "effort": "Nm or N",
+}
 _FIELDS = (*_KINDS, "tool_speed", "payload", "density", "limits")
 
 
@@ -24,8 +29,8 @@ def limit_options(command: Callable[..., None]) -> Callable[..., None]:
         click.option(
             f"--{kind}",
             metavar="VALUE|V1,V2,..|JOINT=VALUE,..",
-            help=f"Limits of {kind} [{unit}; m and N of a sliding joint]: one for all joints, one for each, or some by "
-            "name (default: the URDF's or the maker's).",
+            help=f"Limits of {kind} [{unit}]: one for all joints, one for each, or some by name (default: the URDF's "
+            "or the maker's).",
         )
         for kind, unit in _KINDS.items()
     ]
@@ -84,7 +89,7 @@ def dynamics_option(command: Callable[..., None]) -> Callable[..., None]:
         default="full",
         show_default=True,
         type=click.Choice(["full", "none"]),
-        help="none: by kinematics alone, for an arm without inertias; torque is then not judged.",
+        help="full: torque control; none: kinematics only, for an arm without inertias, torque not judged.",
     )(command)
 
 

@@ -91,11 +91,11 @@ _POINT, _POSE = "X,Y,Z", "X,Y,Z[,RX,RY,RZ]"
 def placing_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options to a command; `taken_placing` takes them out of its arguments."""
     options = (
-        click.option("--no-place", is_flag=True, help="Use the poses as tip poses in the arm's base frame."),
+        click.option("--no-place", is_flag=True, help="Skip placement: poses are already tip poses in the base frame."),
         click.option(
             "--scale",
             metavar="S|MIN:MAX",
-            help="Scale of positions, or its range (default: 0.25:1; smaller where an arm carries nothing so).",
+            help="Scale of positions, or its range (default: 0.25:1; smaller if none is feasible).",
         ),
         click.option(
             "--anchor-start",
@@ -114,7 +114,7 @@ def placing_options(command: Callable[..., None]) -> Callable[..., None]:
         click.option(
             "--tool-rotation",
             metavar="RX,RY,RZ",
-            help="Rotation vector [deg] of the tool in the hand of an anchored motion (default: searched).",
+            help="Tool rotation relative to the hand [deg, rotation vector] (anchored motions; default: searched).",
         ),
     )
     return add_options(command, options)

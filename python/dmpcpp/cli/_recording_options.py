@@ -36,7 +36,11 @@ _OPTIONS = (
     click.option(
         "--rate", type=float, metavar="HZ", help="Samples per second, of a file without times or in place of them."
     ),
-    click.option("--times", metavar="header|received", help="Which stamps of a bag or MCAP file count."),
+    click.option(
+        "--times",
+        metavar="header|received",
+        help="Stamps of a bag or MCAP file: message header (default) or reception time.",
+    ),
     click.option(
         "--where",
         metavar="COLUMN=VALUE",
@@ -66,7 +70,7 @@ _OPTIONS = (
         "--euler-order", metavar="ORDER", help="Of columns rx, ry, rz: ZYX moving axes, zyx fixed ones, or rotvec."
     ),
     click.option("--angle-unit", metavar="deg|rad", help="Unit of columns rx, ry, rz."),
-    click.option("--missing", metavar="empty|nan|WORD|N", help="Marker of a missing sample in a table or array."),
+    click.option("--missing", metavar="empty|nan|WORD|N", help="How a missing sample is written in a table or array."),
     click.option(
         "--columns",
         metavar="time=..,x=..",

@@ -126,7 +126,7 @@ def _print(result: Verification) -> None:
     console = Console(highlight=False)
     for line in result.notes:
         console.print(line, style="dim", soft_wrap=True, markup=False)
-    console.print(f"the plan began at {1e3 * result.lag:.3f} ms of the log's clock (estimated lag)")
+    console.print(f"plan starts at {result.lag:.3f} s on the log's clock")
     console.print(_measures_table(result))
     console.print(checks_table(result.checks))
     how = f"{result.log.arm.name}, {result.log.simulator}, {result.log.mode} ({result.log.caveat})."

@@ -48,7 +48,7 @@ class Verification(Checked):
     Attributes
     ----------
     lag : float
-        Time on the log's clock at which the plan began [s].
+        Start of the plan on the log's clock [s]: a clock offset. Tracking delay: `comparison.lag`.
     log : ExecutionLog
         The run on the plan's clock, sampled evenly; its mode is "recorded".
     comparison : MotionComparison
