@@ -1,4 +1,4 @@
-"""A promise that holds, fails or is not judged, and what a value that made some has in common with all that do."""
+"""A measured value compared with a limit: holds, fails or not judged; and what results with such checks share."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True)
 class Check:
-    """One promise.
+    """One measured value and its limit.
 
     Attributes
     ----------
     name : str
     ok : bool
-        Whether it holds; False where it was not judged.
+        True if the limit holds; False if it fails or was not judged.
     value : float
-        What was found; NaN where nothing was.
+        Measured value; NaN if none.
     limit : float
-        What was allowed: the most, for a margin the least; NaN where nobody states it.
+        Largest allowed value (smallest for margins, clearances, coverage); NaN if unknown.
     unit : str
         "m", "rad", "s", "1" (a ratio), "steps", "links", "checks".
     time : float or None

@@ -52,7 +52,9 @@ class PoseMotion(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What a plan holds: time (T,) s, pose (T, 4, 4) of tip in base, twist (T, 6), names of both frames."""
+    """Cartesian trajectory in plan.npz (joint plan: `planning.JointPlan`): time (T,) s, pose (T, 4, 4) of tip in base,
+    twist (T, 6), names of both frames.
+    """
 
     time: Array
     pose: Array

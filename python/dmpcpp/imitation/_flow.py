@@ -163,12 +163,12 @@ def imitate(
     recording : Recording
     arm : Arm
     seed : int
-        Of the search for a placement.
+        Random seed of the default placement search; unused if `place` is a policy or False.
     place : bool or PlacementPolicy
         Search a placement of the motion in the arm's workspace (`retarget.place`), or by the policy given; if False
-        the recorded poses are taken as poses of the arm's tip in its base frame.
+        the recorded poses are taken as poses of the arm's tip in its base frame. Bind `follow` to a policy yourself.
     scale : (float, float), optional
-        Smallest and largest scale of positions that `retarget.place` may choose; as that has it unless given.
+        Range of position scales of that search; likewise. Default: that of `retarget.place`.
     smooth : bool
         Whether noise found in the recording may be smoothed out in learning; the recording's history says so.
     basis_count : int, optional

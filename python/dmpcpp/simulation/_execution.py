@@ -46,14 +46,14 @@ def execute(
     joints : JointTrajectory
         (T, n), T >= 2, in the order of ``arm.joint_names``.
     rate : float
-        Control and physics steps a second [Hz].
+        Control and physics steps a second [Hz], 10 to 1e5.
     mode : {"computed_torque", "position", "position_velocity", "velocity"}
         ``"computed_torque"``: torque = inverse dynamics of (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q) + ki
         integral of (q_ref - q)) in the state that is seen, clipped at the effort limits (Siciliano et al.,
         Robotics, 2009, section 8.5.2). The others are sanity checks: the engine's own motors reach a velocity
-        inside the step, which tests kinematics and the torque cap only and cannot feel a load. It is the
-        velocity to the next reference position, that of the reference with the error made good in one step,
-        or that of the reference with 10/s times the error.
+        inside the step, which tests kinematics and the torque cap only and cannot feel a load. Commanded velocity,
+        T the control period: ``"position"``: (q_ref[next] - q)/T; ``"position_velocity"``: qd_ref + (q_ref - q)/T;
+        ``"velocity"``: qd_ref + 10/s (q_ref - q).
     kp, kd, ki : float
         Gains of the computed torque [1/s^2, 1/s, 1/s^3], >= 0; critically damped where kd = 2 sqrt(kp), stable
         where ki < kp kd. An integral takes away what a constant load leaves.

@@ -33,7 +33,11 @@ _JOINT = 3  # steps on either side of a motion whose differences reach into lead
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Limits of the checks: m, rad, ratios to the arm's limits, counts.
+    """Limits of the checks.
+
+    position_*, settle_error, ik_position, kinematics_mismatch: m. angle_*, ik_angle: rad. joint_margin: least distance
+    to a position limit, rad or m. *_ratio: peak/limit. *_collision, *_contact: steps. repaired_inertias: links.
+    inertia_change, dynamics_mismatch: relative.
 
     ``inertia_change`` is how far an inertia that no body can have may be from the nearest possible one (the largest
     change of a principal moment over the largest moment); so many links as ``repaired_inertias`` may be beyond it.
@@ -76,7 +80,7 @@ class Verdict(Checked):
 
 
 def judge(log: ExecutionLog, tolerances: Tolerances | None = None) -> Verdict:
-    """Hold an execution against its tolerances.
+    """Check an execution against tolerances.
 
     Tracking is judged over the motion itself; limits, contacts and torque over all steps, lead-in, lead-out
     and settling included. Limits forgive ROUNDING.

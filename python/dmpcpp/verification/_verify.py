@@ -129,8 +129,8 @@ def verify(
     Raises
     ------
     InvalidArgument
-        Joints are missing in the plan or in the log, positions in degrees, the two do not fit in time, or the plan
-        does not move.
+        Plan joints differ from the arm's, the log lacks a joint, positions far beyond limits (degrees?), too few log
+        samples within the plan, or a plan that does not move.
     """
     _refuse(arm, joints, cutoff)
     accepted = accepted_names(accept)
