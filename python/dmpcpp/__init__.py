@@ -1,9 +1,11 @@
 """Dynamic movement primitives: a person's motion, learned and carried out by a robot arm.
 
 The core (``Dmp``, ``OrientationDmp``, ``PoseDmp`` and their runs, ``so3``, model files) and the kinematics (``Arm``,
-``InverseKinematics``) are C++; what surrounds them are the modules ``recordings``, ``motion``, ``retarget``,
-``simulation``, ``metrics``, ``export``, ``plot``, ``arms``, ``imitation``, ``grasp`` and ``generality``, imported when
-they are used.
+``InverseKinematics``) are C++. Around them are modules, imported when they are used: ``recordings`` and ``inspection``
+(files), ``motion`` (cleaning, cutting, noise), ``learning``, ``arms`` and ``urdf_check`` (robots), ``retarget``
+(placement), ``planning``, ``simulation``, ``imitation`` (the whole flow), ``export``, ``verification`` (logs of real
+arms), ``checks``, ``metrics``, ``comparison``, ``plot``, ``view``, ``scene`` and ``report`` (pictures), ``batch``,
+``generality`` and ``reproduction`` (many runs), ``grasp``, ``doctor`` (the installation), and ``errors``.
 Times are in s, lengths in m, angles in rad; arrays are float64.
 """
 
