@@ -1,4 +1,4 @@
-"""What the commands say: no message names a parameter of Python where a person typed an option."""
+"""What the commands and the library say: each in the words of who called it, an option or a parameter."""
 
 import ast
 import re
@@ -10,6 +10,7 @@ from dmpcpp.cli import main
 from dmpcpp.cli._flags import flagged, flags_of, in_flags
 from dmpcpp.errors import InvalidArgument, NotStated, within
 
+LIMITS = {kind: f"--{kind}" for kind in ("velocity", "acceleration", "effort", "density", "dynamics")}
 PACKAGE = Path(__file__).parents[2] / "python" / "dmpcpp"
 
 DATA = {  # what a file, a model or a class holds: no command passes such an argument on
@@ -29,6 +30,22 @@ def messages():
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("InvalidArgument", "NotStated"):
                 found.append(_text(node.args[-1]))
     assert len(found) > 150
+    return found
+
+
+@cache
+def sentences():
+    """Return every text of the library (the command line is in cli/), docstrings aside, what differs written as X."""
+    found = []
+    for path in PACKAGE.rglob("*.py"):
+        if "cli" not in path.parts and path.name != "doctor.py":  # doctor says what the commands need
+            tree = ast.parse(path.read_text())
+            silent = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+            silent |= {id(part) for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in node.values}
+            strings = (node for node in ast.walk(tree) if isinstance(node, ast.Constant | ast.JoinedStr))
+            found += [_text(node) for node in strings if id(node) not in silent]
+    found = [text for text in found if " " in text and "<" not in text]  # words of a format are not said to anyone
+    assert len(found) > 600
     return found
 
 
@@ -65,6 +82,27 @@ def test_a_message_names_options_and_no_parameters(name):
             assert not re.search(spelled, shown), f"{parameter} in {shown!r}"
 
 
+def test_the_library_names_no_option_of_the_command_line():
+    options = {option for command in main.commands.values() for each in command.params for option in each.opts}
+    options = {option for option in options if option.startswith("--")}
+    assert len(options) > 60
+    for text in sentences():
+        commands = r"dmpcpp [a-z-]+ --[a-z-]+|`[^`]*`"  # a whole command may be named: `dmpcpp arms --fetch ur5e`
+        named = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", re.sub(commands, "", text)))
+        assert not named & options, text
+
+
+@pytest.mark.parametrize("name", ["plan", "imitate", "batch", "check-urdf"])
+def test_a_limit_or_a_contact_to_state_is_named_as_the_option(name):
+    flags = flags_of(main.commands[name]) if name != "check-urdf" else dict(LIMITS)
+    for parameter in flags.keys() & {*LIMITS, "floor", "ignored"}:
+        said = [text for text in sentences() if re.search(rf"(?<![\w.]){parameter}=[.XN'\[]", text)]
+        assert said, parameter
+        for text in said:
+            shown = in_flags(text, flags)
+            assert flags[parameter] in shown and f"{parameter}=" not in shown, shown
+
+
 def test_an_error_carries_its_argument_through_the_name_of_a_file():
     assert InvalidArgument("rate: 0, expected > 0.").argument == "rate"
     assert InvalidArgument("time[3]: nan, expected a finite number.").argument == "time"
@@ -86,6 +124,13 @@ def test_an_error_carries_its_argument_through_the_name_of_a_file():
         ("inspect", "up_axis: lacking. State up_axis as well.", "--up-axis: lacking. State --up-axis as well."),
         ("generality", "noises: none, expected one.", "--noise: none, expected one."),
         ("doctor", "up_axis: lacking.", "up_axis: lacking."),
+        ("plan", "state ignored=[('a', 'b'), ('c', 'd')].", "state --ignore-contact a,b --ignore-contact c,d."),
+        ("plan", "floor=Z, or floor=None without one", "--floor Z, or --floor none without one"),
+        ("plan", "Set it with arms.with_stated(arm, velocity=...) [m/s].", "Set it with --velocity ... [m/s]."),
+        ("demo", "the shapes (arms.with_stated(arm, density=2700)), or", "the shapes (--density 2700), or"),
+        ("demo", "by kinematics alone (dynamics='none')", "by kinematics alone (--dynamics none)"),
+        ("plan", "by kinematics alone (dynamics='none')", "by kinematics alone (--simulator none)"),
+        ("imitate", "may take it: simulator='mujoco'.", "may take it: --simulator mujoco."),
     ],
 )
 def test_the_argument_of_an_error_is_written_as_its_option(command, message, shown):

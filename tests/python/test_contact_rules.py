@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import json
+import re
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -105,14 +107,14 @@ def test_a_pair_that_always_touches_is_named_and_asked_for() -> None:
     engine = partial(simulation.Bullet, floor=None)
     with pytest.raises(InvalidArgument, match=r"'l4' and 'shell' in 40 of 40") as refused:
         planning.require_free_postures(arm, engine)
-    stated = [tuple(word.split("'")[1].split(",")) for word in str(refused.value).split("ignore_contact=")[1:]]
+    stated = ast.literal_eval(re.search(r"ignored=(\[.*?\)\])", str(refused.value))[1])
     looked_at = planning.require_free_postures(arm, partial(engine, ignored=stated))
     assert looked_at.rules.stated == tuple(stated)
     assert looked_at.floor is None
 
 
 def test_a_floor_that_always_touches_is_named_with_what_to_state() -> None:
-    with pytest.raises(InvalidArgument, match=r"and 'floor' in .* floor=none"):
+    with pytest.raises(InvalidArgument, match=r"and 'floor' in .* floor=None"):
         planning.require_free_postures(Arm.from_urdf(robot(chain(6))), partial(simulation.Bullet, floor=2.0))
 
 
@@ -163,7 +165,7 @@ def test_the_command_line_states_floor_and_pairs(tmp_path: Path) -> None:
     (tmp_path / "own.urdf").write_text(robot(chain(6)))
     for option, word in (
         (("--ignore-contact", "l1"), "--ignore-contact: 'l1', expected two links"),
-        (("--floor", "low"), "--floor: 'low', expected 1 finite numbers"),
+        (("--floor", "low"), "--floor: 'low', expected a height in m such as -0.05, or none"),
         (("--ignore-contact", "l1,nobody"), "no link 'nobody'"),
     ):
         done = run("demo", "--arm", "own.urdf", *option, cwd=tmp_path)

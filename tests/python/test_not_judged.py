@@ -168,7 +168,7 @@ def test_gravity_beyond_an_effort_limit_is_found_by_the_closed_form():
 def test_an_arm_that_can_be_held_is_not_refused():
     require_holdable(arm())
     require_holdable(arm(), random_postures(arm()))
-    with pytest.raises(InvalidArgument, match=r"joint 'j2': gravity alone asks .* Nm, the URDF allows 3\. .*--effort"):
+    with pytest.raises(InvalidArgument, match=r"joint 'j2': gravity alone asks .* Nm, the URDF allows 3\. .*effort="):
         require_holdable(arm(limit=WEAK))
 
 

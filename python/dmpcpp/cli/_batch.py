@@ -15,6 +15,7 @@ import click
 from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_choice, taken_surroundings
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
+from dmpcpp.cli._flags import as_typed
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
 from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 from dmpcpp.cli._options import (
@@ -170,7 +171,11 @@ def _print(outcomes: list[Outcome], out: Path) -> None:
         numbers = [f"{1e3 * outcome.errors[s]['position_rmse']:.3g}" if outcome.errors else "-" for s in stages]
         slow = f"{outcome.slowdown:.2f}" if outcome.errors else "-"
         table.add_row(
-            marks[outcome.verdict], escape(Path(outcome.file).name), *numbers, slow, escape(first_line(outcome.cause))
+            marks[outcome.verdict],
+            escape(Path(outcome.file).name),
+            *numbers,
+            slow,
+            escape(as_typed(first_line(outcome.cause))),
         )
     console.print(table)
     passed = sum(outcome.ok for outcome in outcomes)

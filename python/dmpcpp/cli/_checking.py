@@ -8,8 +8,12 @@ from pathlib import Path
 
 import click
 
+from dmpcpp.cli._flags import in_flags
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._tables import arm_line
+
+_OF_COMMANDS = ("velocity", "acceleration", "effort", "density", "dynamics")
+"""Options of the commands that use an arm, which what to do names."""
 
 
 @click.command("check-urdf")
@@ -35,7 +39,8 @@ def check_urdf(file: Path, base: str | None, tip: str | None, package_path: tupl
     else:
         for defect in report.defects:
             kind = click.style("error  ", fg="red", bold=True) if defect.fatal else click.style("warning", fg="yellow")
-            click.echo(f"{kind} {defect.where}: {defect.what}. {defect.to_do}")
+            said = in_flags(f"{defect.what}. {defect.to_do}", _OF_COMMANDS)
+            click.echo(f"{kind} {defect.where}: {said}")
         if report.arm is not None:
             arm = report.arm
             click.echo(f"{arm.name}: {arm_line(arm)}")

@@ -9,7 +9,7 @@ import click
 
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["ALIASES", "flag", "flagged", "flags_of", "in_flags"]
+__all__ = ["ALIASES", "as_typed", "flag", "flagged", "flags_of", "in_flags"]
 
 ALIASES = {
     "arms": "arm",
@@ -17,7 +17,6 @@ ALIASES = {
     "cutoff": "low_pass",
     "export": "formats",
     "format": "format_",
-    "ignore_contact": "ignored",
     "longest": "longest_gap",
     "name": "arm",
     "noises": "noise",
@@ -28,7 +27,7 @@ ALIASES = {
 }
 """Parameters of the library that have another name in a command."""
 
-_VALUE = r"'[^']*'|\{[^}]*\}|\[[^\]]*\]|\.\.\.|-?[\w.+-]*\w"
+_VALUE = r"'[^']*'|\{[^}]*\}|\[\(.*?\)\]|\[[^\]]*\]|\.\.\.|-?[\w.+-]*\w"
 
 
 def flag(parameter: str) -> str:
@@ -42,6 +41,8 @@ def flags_of(command: click.Command) -> dict[str, str]:
     known |= {name: known[alias] for name, alias in ALIASES.items() if alias in known and name not in known}
     if command.name == "plan":
         known["start"] = known["from_joints"]
+    if command.name in ("plan", "verify"):
+        known["dynamics"] = known["simulator"]  # without an engine they judge by kinematics alone
     return known
 
 
@@ -53,8 +54,15 @@ def flagged(error: InvalidArgument, flags: Mapping[str, str]) -> str:
     return in_flags(message, flags)
 
 
+def as_typed(message: str) -> str:
+    """Return a message in the words of the command that runs."""
+    context = click.get_current_context(silent=True)
+    return in_flags(message, flags_of(context.command)) if context else message
+
+
 def in_flags(message: str, flags: Mapping[str, str] | Iterable[str]) -> str:
-    """Return a message with parameters as options of the command line: unit='cm' is --unit cm.
+    """Return a message with parameters as options of the command line: unit='cm' is --unit cm, and so is a call
+    that sets it, f(x, unit='cm').
 
     `flags` maps the parameters of the command to what a user types; names alone stand for the usual options.
     """
@@ -63,7 +71,8 @@ def in_flags(message: str, flags: Mapping[str, str] | Iterable[str]) -> str:
         return message
     names = "|".join(sorted(map(re.escape, flags), key=len, reverse=True))
     before, behind = r"(?<![\w\-/'\".])", r"(?![\w=(/'\"]|\.\w)"  # no part of a path, nothing that is quoted
-    message = re.sub(rf"{before}({names})=({_VALUE})", lambda m: _option(flags[m[1]], m[2]), message)
+    for stated in (rf"[\w.]+\((?:\w+, )?({names})=({_VALUE})\)", rf"({names})=({_VALUE})"):
+        message = re.sub(before + stated, lambda m: _option(flags[m[1]], m[2]), message)
     words = "|".join(sorted((name for name in flags if "_" in name.strip("_")), key=len, reverse=True))
     return re.sub(rf"{before}({words}){behind}", lambda m: flags[m[1]], message) if words else message
 
@@ -77,6 +86,8 @@ def _typed(parameter: click.Parameter) -> str:
 def _option(typed: str, value: str) -> str:
     if value == "True":
         return typed
+    if pairs := re.findall(r"\('(.*?)', '(.*?)'\)", value):
+        return " ".join(f"{typed} {','.join(pair)}" for pair in pairs)
     if value[0] in "{[":
         value = re.sub(r"[{}\[\]' ]", "", value).replace(":", "=")
-    return f"{typed} {value.strip(chr(39))}"
+    return f"{typed} {'none' if value == 'None' else value.strip(chr(39))}"

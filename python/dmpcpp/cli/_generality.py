@@ -19,6 +19,7 @@ from dmpcpp.cli._arm_options import (
     taken_surroundings,
 )
 from dmpcpp.cli._config import save_config
+from dmpcpp.cli._flags import as_typed
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
 from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 
@@ -127,7 +128,7 @@ def _print(results: list[Result], summary: dict[str, Any], out: Path) -> None:
     console.print(_table(results))
     for failure in summary["failures"]:
         which = f"{failure['arm']}, noise {failure['noise']}, motion {failure['index']}"
-        console.print(f"{which}: {failure['cause']}", soft_wrap=True, markup=False)
+        console.print(f"{which}: {as_typed(failure['cause'])}", soft_wrap=True, markup=False)
     passed = summary["verdict"] == "pass"
     console.print("verified" if passed else "not verified", style="bold green" if passed else "bold red", end=": ")
     share, goal = 100 * summary["share_passed"], 100 * summary["goal"]

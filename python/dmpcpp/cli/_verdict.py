@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from dmpcpp.cli._flags import as_typed
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -51,4 +53,4 @@ def reason(result: Checked) -> str:
 
 def _not_judged(check: Check, result: Checked) -> str:
     end = " Accepted." if check.name in result.accepted else f" Or accept it unjudged: --accept {check.name}."
-    return f"not judged: {check.name}: {check.detail}{end}"
+    return f"not judged: {check.name}: {as_typed(check.detail)}{end}"

@@ -299,7 +299,7 @@ def _by_kinematics(checks: Iterable[Check]) -> Iterator[Check]:
     """Leave out what only masses could show; torque and inertia are named as not judged."""
     for check in checks:
         if check.name in _OF_DYNAMICS:
-            yield Check.not_judged(check.name, check.unit, "the run is by kinematics alone (--dynamics none).")
+            yield Check.not_judged(check.name, check.unit, "the run is by kinematics alone (dynamics='none').")
         elif check.name not in ("torque_clipped", "dynamics_mismatch", "engines_torque_rms"):
             yield check
 

@@ -70,8 +70,8 @@ class ClearOfItself:
 
     def _advice(self, pair: tuple[str, str]) -> str:
         if FLOOR in pair:
-            return "State the real height of the floor, floor=Z, or floor=none without one"
-        return f"If their shapes overlap by construction, state ignore_contact='{pair[0]},{pair[1]}'"
+            return "State the real height of the floor, floor=Z, or floor=None without one"
+        return f"If their shapes overlap by construction, state ignored=[('{pair[0]}', '{pair[1]}')]"
 
 
 @dataclass(frozen=True)
@@ -138,8 +138,8 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
     if not always:
         return looked_at
     named = "; ".join(f"'{a}' and '{b}' in {n} of {_POSTURES}" for (a, b), n in always)
-    stated = " ".join(f"ignore_contact='{a},{b}'" for (a, b), _ in always)
-    floor = " Or state where the floor is: floor=Z, or floor=none." if any(FLOOR in pair for pair, _ in always) else ""
+    stated = "ignored=[" + ", ".join(f"('{a}', '{b}')" for (a, b), _ in always) + "]"
+    floor = " Or state where the floor is: floor=Z, or floor=None." if any(FLOOR in pair for pair, _ in always) else ""
     raise InvalidArgument(
         f"arm: links of {arm.name!r} touch in (nearly) every posture: {named} random ones. If they are built so, state "
         f"{stated}, or disable_collisions in an .srdf beside the URDF.{floor}"

@@ -227,8 +227,9 @@ def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
     if not any(float(mass.get("value", 0.0)) > 0.0 for mass in masses):
         raise InvalidArgument(
             f"arm.urdf: no link beyond joint '{last}' has a mass, expected one that physics can move. Give "
-            f"{', '.join(sorted(beyond))} an <inertial>, take the masses from the shapes (--density 2700), or run by "
-            "kinematics alone (--dynamics none); `dmpcpp check-urdf` names every link without one."
+            f"{', '.join(sorted(beyond))} an <inertial>, take the masses from the shapes "
+            "(arms.with_stated(arm, density=2700)), or run by kinematics alone (dynamics='none'); `dmpcpp check-urdf` "
+            "names every link without one."
         )
 
 

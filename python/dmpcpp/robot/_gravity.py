@@ -81,6 +81,6 @@ def _overload(arm: Arm, k: int, asked: float, share: float) -> Overload:
     who = _SOURCES.get(arm.limit_sources["effort"][k], "its limit is")
     sentence = (
         f"joint '{name}': gravity alone asks {asked:.3g} {unit}, {who} {limit:.3g}. "
-        f"State the real limit: --effort [{unit}]."
+        f"Set the real limit with arms.with_stated(arm, effort=...) [{unit}]."
     )
     return Overload(name, asked, limit, share, sentence)

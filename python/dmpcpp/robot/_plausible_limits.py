@@ -114,7 +114,7 @@ def _position(name: str, lower: float, upper: float, motion: str) -> Iterator[Li
 
 
 def _velocity(name: str, limit: float, motion: str, unit: str) -> Iterator[LimitDoubt]:
-    to_do = f"State the real one: --velocity [{unit}]."
+    to_do = f"Set it with arms.with_stated(arm, velocity=...) [{unit}]."
     if not math.isfinite(limit):
         yield LimitDoubt(name, "velocity", "no velocity limit is stated", to_do, missing=True)
     elif limit > _FASTEST[motion]:
@@ -125,7 +125,7 @@ def _velocity(name: str, limit: float, motion: str, unit: str) -> Iterator[Limit
 
 
 def _acceleration(name: str, limit: float, motion: str, unit: str) -> Iterator[LimitDoubt]:
-    to_do = f"State the real one: --acceleration [{unit}]."
+    to_do = f"Set it with arms.with_stated(arm, acceleration=...) [{unit}]."
     if not math.isfinite(limit):
         yield LimitDoubt(name, "acceleration", "no acceleration limit is stated", to_do, missing=True)
     elif limit > _MOST_ACCELERATION[motion]:
@@ -135,7 +135,7 @@ def _acceleration(name: str, limit: float, motion: str, unit: str) -> Iterator[L
 
 def _effort(name: str, limit: float, motion: str) -> Iterator[LimitDoubt]:
     unit = "Nm" if motion == "turning" else "N"
-    to_do = f"State the real one: --effort [{unit}]."
+    to_do = f"Set it with arms.with_stated(arm, effort=...) [{unit}]."
     if not math.isfinite(limit):
         yield LimitDoubt(name, "effort", "no effort limit is stated", to_do, missing=True)
     elif limit > _STRONGEST[motion]:

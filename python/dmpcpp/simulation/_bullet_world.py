@@ -248,5 +248,5 @@ def _pybullet() -> ModuleType:
         raise MissingDependency(
             f"pybullet is not installed for this Python {sys.version_info.major}.{sys.version_info.minor}. "
             'Install it: pip install "dmpcpp[bullet]", compiled where this Python has no wheel; or take MuJoCo: '
-            '--simulator mujoco, pip install "dmpcpp[mujoco]".'
+            "simulator='mujoco', pip install \"dmpcpp[mujoco]\"."
         ) from None

@@ -67,10 +67,10 @@ def checked_time_step(time_step: float) -> float:
 
 
 def refused(engine: str, arm: Arm, other: str, reason: str) -> InvalidArgument:
-    """Return the error of an engine that cannot load an arm; its own words come last."""
+    """Return the error of an engine that cannot load an arm; what the engine says comes last."""
     return InvalidArgument(
         f"arm.urdf: {engine} cannot load '{arm.name}'. `dmpcpp check-urdf` looks for the defect; the other engine may "
-        f"take it: --simulator {other}. Its own words: {reason}"
+        f"take it: simulator='{other}'. {engine} says: {reason}"
     )
 
 

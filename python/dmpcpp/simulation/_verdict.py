@@ -181,7 +181,10 @@ def _inertia(log: ExecutionLog, tolerances: Tolerances) -> Check:
         links = ", ".join(map(str, beyond))
         why = f"no body can have the inertia of {links}, which the nearest possible replaces. Correct it in the URDF."
         if any(math.isinf(repair.change) for repair in beyond):
-            why = f"no mass or inertia is stated of {links}. State them in the URDF, or the --density of its bodies."
+            why = (
+                f"no mass or inertia is stated of {links}. State them in the URDF, or the density of its bodies with "
+                "arms.with_stated(arm, density=...) [kg/m^3]."
+            )
         return Check.not_judged("inertia", "1", why)
     most = max((repair.change for repair in repairs if math.isfinite(repair.change)), default=0.0)
     detail = f"replaced by the nearest possible: {', '.join(map(str, repairs))}" if repairs else ""
