@@ -130,6 +130,7 @@ def test_an_error_carries_its_argument_through_the_name_of_a_file():
         ("demo", "the shapes (arms.with_stated(arm, density=2700)), or", "the shapes (--density 2700), or"),
         ("demo", "by kinematics alone (dynamics='none')", "by kinematics alone (--dynamics none)"),
         ("plan", "by kinematics alone (dynamics='none')", "by kinematics alone (--simulator none)"),
+        ("verify", "joints: 1 sample(s), expected at least 2.", "PLAN: 1 sample(s), expected at least 2."),
         ("imitate", "may take it: simulator='mujoco'.", "may take it: --simulator mujoco."),
     ],
 )

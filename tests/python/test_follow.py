@@ -100,6 +100,7 @@ def test_an_arm_of_few_joints_carries_what_it_can(count: int, follow: str, tmp_p
     again = planning.plan(load(tmp_path / "model.json"), arm_of(count), follow=follow, simulator=simulation.Bullet)
     assert again.ok
     assert again.summary()["follow"] == follow
+    assert planning.solve(load(tmp_path / "model.json"), arm_of(count), follow=follow).joints.report.complete
     if follow == "axis:z":
         made = run.log.arm.forward_kinematics(run.joints.position)
         assert Follow.of(follow).angle_errors(run.plan.pose, made).max() < 1e-5

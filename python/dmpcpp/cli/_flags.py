@@ -17,6 +17,7 @@ ALIASES = {
     "cutoff": "low_pass",
     "export": "formats",
     "format": "format_",
+    "joints": "plan",
     "longest": "longest_gap",
     "name": "arm",
     "noises": "noise",

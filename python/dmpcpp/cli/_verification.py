@@ -75,7 +75,6 @@ def verify(
     Example: dmpcpp verify dance/joints.csv robot.csv --arm panda --tolerance position_max=0.005
     """
     from dmpcpp import export, simulation, verification
-    from dmpcpp.robot import Follow
 
     tolerances = _tolerances(stated)
     joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
@@ -89,7 +88,7 @@ def verify(
         tolerances=tolerances,
         cutoff=low_pass,
         simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
-        follow=Follow.of(arm["follow"] or "pose"),
+        follow=arm["follow"] or "pose",
         accept=names(accept),
     )
     if as_json:
@@ -126,7 +125,7 @@ def _print(result: Verification) -> None:
     console = Console(highlight=False)
     for line in result.notes:
         console.print(line, style="dim", soft_wrap=True, markup=False)
-    console.print(f"plan starts at {result.lag:.3f} s on the log's clock")
+    console.print(f"plan starts at {result.lag:.4f} s on the log's clock")
     console.print(_measures_table(result))
     console.print(checks_table(result.checks))
     how = f"{result.log.arm.name}, {result.log.simulator}, {result.log.mode} ({result.log.caveat})."

@@ -77,7 +77,7 @@ def solve(
     accept: Accept | None = None,
     slow_down: bool = True,
     engine: Engine | None = None,
-    follow: Follow = POSE,
+    follow: str | Follow = POSE,
 ) -> Solution:
     """Roll a model out and find the joints for it, as slow as the limits of the arm ask for.
 
@@ -95,14 +95,15 @@ def solve(
     stand : array_like (n,), optional
         Current joints; the path is followed only from here.
     accept : JointTrajectory -> bool, optional
-        A last word on joints that follow the path; where it refuses, other branches are tried.
+        Called with complete joint trajectories; where it rejects one, other branches are tried, and if it rejects all
+        of them the first is returned. Not called with `stand`.
     slow_down : bool
         Take longer where velocity or acceleration limits ask for it.
     engine : callable, optional
         Also slow down to the effort limits. If no duration meets them, only the other limits are applied; `slowed`
         reports that as `possible`.
-    follow : Follow
-        The part of each pose that the arm follows.
+    follow : str or Follow
+        The part of each pose that the arm follows: "pose", "position", "axis" (z) or "axis:x", ..
 
     Raises
     ------
@@ -157,9 +158,10 @@ def _followed(
     start: ArrayLike | None,
     stand: ArrayLike | None,
     accept: Accept | None,
-    follow: Follow,
+    follow: str | Follow,
 ) -> JointTrajectory:
     """Return joints along the path that are accepted; else the first complete ones, else those that meet most poses."""
+    follow = Follow.of(follow)
     best = _complete(path, arm, start, stand, follow)
     if not best.report.complete or accept is None or stand is not None or accept(best):
         return best

@@ -8,7 +8,7 @@ both ``execute`` raises ``MissingDependency``.
 from dmpcpp.checks import Check, Checked
 from dmpcpp.robot import Disturbance
 from dmpcpp.simulation._bullet import Bullet
-from dmpcpp.simulation._control import Mode as Mode
+from dmpcpp.simulation._control import Mode
 from dmpcpp.simulation._default import default_simulator
 from dmpcpp.simulation._execution import execute
 from dmpcpp.simulation._execution_log import ContactEvent, ExecutionLog
@@ -45,6 +45,7 @@ __all__ = [
     "ExecutionLog",
     "Friction",
     "GraspWorld",
+    "Mode",
     "MuJoCo",
     "Nearest",
     "ParallelGripper",

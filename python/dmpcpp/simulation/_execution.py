@@ -35,7 +35,7 @@ def execute(
     interpolation: Interpolation = "quintic",
     disturbance: Disturbance | None = None,
     simulator: Callable[..., Simulator] = default_simulator,
-    follow: Follow = POSE,
+    follow: str | Follow = POSE,
     progress: Progress | None = None,
 ) -> ExecutionLog:
     """Carry out ``joints`` on ``arm`` under physics; two calls give the same log bit for bit.
@@ -72,8 +72,8 @@ def execute(
     simulator : callable
         ``simulator(arm, time_step)`` gives a ``Simulator``; ``functools.partial(Bullet, floor=None)`` has no
         ground. With a disturbance of the arm also called with ``disturbance=``.
-    follow : Follow
-        The part of the tool's pose that is judged: the part that the arm follows.
+    follow : str or Follow
+        The part of the tool's pose that is judged, the part that the arm follows: "pose", "position", "axis:z", ..
     progress : callable, optional
         Called as ``progress(done, total)`` every hundred steps and at the end.
 
@@ -90,7 +90,7 @@ def execute(
         The engine is not installed.
     """
     disturbance = disturbance or Disturbance()
-    gains = Gains(kp, kd, ki)
+    gains, judged = Gains(kp, kd, ki), Follow.of(follow)
     _refuse(arm, joints, rate, mode, interpolation, gains, settle)
     hold = _hold(rate, disturbance)
     reference = sample(
@@ -106,7 +106,7 @@ def execute(
             controller, drive = Servo(mode, hold / rate, hold), by_motors
         recorder = Recorder(len(reference.time), arm.joint_count)
         ControlLoop(plant, controller, drive, Sensors(disturbance, 1.0 / rate), hold).run(reference, recorder, progress)
-        return _log(joints, mode, plant, reference, recorder, disturbance, follow, dynamics)
+        return _log(joints, mode, plant, reference, recorder, disturbance, judged, dynamics)
 
 
 def _log(

@@ -99,7 +99,7 @@ def verify(
     cutoff: float = 20.0,
     simulator: Callable[[Arm, float], Simulator] | None = None,
     accept: Iterable[str] = (),
-    follow: Follow = POSE,
+    follow: str | Follow = POSE,
 ) -> Verification:
     """Hold the log of a real arm against the plan that it was given.
 
@@ -118,8 +118,8 @@ def verify(
     tolerances : Tolerances, optional
     cutoff : float
         Of the low-pass [Hz], > 0; without effect from 0.45 of the log's rate.
-    follow : Follow
-        The part of the tool's pose that is judged: the part that the arm follows.
+    follow : str or Follow
+        The part of the tool's pose that is judged, the part that the arm follows: "pose", "position", "axis:z", ..
     simulator : callable, optional
         Engine in whose geometry the executed joints are looked at for contacts; None: not looked at.
     accept : iterable of str
@@ -133,6 +133,7 @@ def verify(
         samples within the plan, or a plan that does not move.
     """
     _refuse(arm, joints, cutoff)
+    follow = Follow.of(follow)
     accepted = accepted_names(accept)
     of_arm = log.of(arm.joint_names)
     _refuse_another_unit(arm, of_arm)
@@ -162,9 +163,9 @@ def _margin(arm: Arm, kind: str, values: Array, limit: Array) -> float | None:
 
 def _refuse(arm: Arm, joints: JointTrajectory | JointSamples, cutoff: float) -> None:
     if list(joints.joint_names) != list(arm.joint_names):
-        raise InvalidArgument(f"plan: joints {list(joints.joint_names)}, expected those of the arm, {arm.joint_names}.")
+        raise InvalidArgument(f"joints: {list(joints.joint_names)}, expected those of the arm, {arm.joint_names}.")
     if len(joints.time) < 2:
-        raise InvalidArgument(f"plan: {len(joints.time)} sample(s), expected at least 2.")
+        raise InvalidArgument(f"joints: {len(joints.time)} sample(s), expected at least 2.")
     if not 0.0 < cutoff < np.inf:
         raise InvalidArgument(f"cutoff: {cutoff}, expected a positive number of Hz.")
 
