@@ -181,8 +181,8 @@ def imitate(
         the one that everything is measured in, MuJoCo executes the same joints, and checks say how far the two are
         apart.
     accept : iterable of str
-        Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
-        by. One that is judged and fails is never accepted.
+        Names of checks (`checks.ACCEPTABLE`) that may remain unjudged for lack of a limit; one that is judged and fails
+        is never accepted.
     dynamics : {"full", "none"}
         "none" carries the joints out by position, without masses and torques: for arms whose inertias nobody states.
         Torque and inertia are then not judged, which this accepts.

@@ -122,8 +122,8 @@ def plan(
         Engine for contact checks, e.g. `simulation.default_simulator`. None (default): no collision check; `ok` and
         joints.csv do not cover collisions.
     accept : iterable of str
-        Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
-        by.
+        Names of checks (`checks.ACCEPTABLE`) that may remain unjudged for lack of a limit; one that is judged and fails
+        is never accepted.
     follow : str, optional
         "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
         than six joints needs it.

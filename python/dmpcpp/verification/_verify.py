@@ -123,8 +123,8 @@ def verify(
     simulator : callable, optional
         Engine in whose geometry the executed joints are looked at for contacts; None: not looked at.
     accept : iterable of str
-        Names of checks (`checks.ACCEPTABLE`) that shall not stand in the way where nobody states a limit to judge them
-        by.
+        Names of checks (`checks.ACCEPTABLE`) that may remain unjudged for lack of a limit; one that is judged and fails
+        is never accepted.
 
     Raises
     ------
