@@ -24,7 +24,7 @@ HEADER_ONLY = {
     "base": {"alignment", "export", "ik_status", "mailbox", "realtime", "status", "trajectory"},
     "spline": {"noise"},
     "motion": {"align"},
-    "primitive": {"batch", "coupling", "primitive", "product", "spread", "stepper"},
+    "primitive": {"batch", "coupling", "primitive", "product", "spread", "stepper", "via"},
 }
 
 

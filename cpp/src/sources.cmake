@@ -20,6 +20,7 @@ set(DMP_core_SOURCES
   primitive/forcing_scale.cpp
   primitive/learning.cpp
   primitive/normal_equations.cpp
+  primitive/offset_path.cpp
   primitive/options.cpp
   primitive/orientation_dmp.cpp
   primitive/orientation_forms.cpp
@@ -29,6 +30,7 @@ set(DMP_core_SOURCES
   primitive/pose_space.cpp
   primitive/rotation_space.cpp
   primitive/rotation_system.cpp
+  primitive/sequence.cpp
   primitive/spring_damper.cpp
   primitive/turning_reference.cpp
   primitive/turning_system.cpp

@@ -52,4 +52,15 @@ py::tuple shown(const std::pair<First, Second>& point) {
   return py::make_tuple(shown(point.first), shown(point.second));
 }
 
+// The same for any field of parameters or of a state.
+inline double show_field(double value) { return value; }
+template <class Value>
+auto show_field(const Value& value) {
+  return shown(value);
+}
+template <int N>
+auto show_field(const Eigen::Matrix<double, N, 1>& value) {
+  return shown(Eigen::VectorXd(value));
+}
+
 }  // namespace dmp::python

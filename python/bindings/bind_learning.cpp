@@ -132,6 +132,7 @@ void bind_learning(py::module_& m) {
       .value("finished", Status::finished)
       .value("invalid_input", Status::invalid_input)
       .value("not_finite", Status::not_finite)
+      .value("too_late", Status::too_late)
       .finalize();
   py::class_<FitReport>(
       m, "FitReport",

@@ -17,8 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "adaptation.hpp"
 #include "arrays.hpp"
+#include "loop.hpp"
 #include "options.hpp"
+#include "sequences.hpp"
 #include "spaces.hpp"
 #include "trajectories.hpp"
 #include "values.hpp"
@@ -55,16 +58,6 @@ void read_field(std::pair<First, Second>& field, const py::object& value, const 
   read_field(field.second, both.second, name);
 }
 
-inline double show_field(double value) { return value; }
-template <class Value>
-auto show_field(const Value& value) {
-  return shown(value);
-}
-template <int N>
-auto show_field(const Eigen::Matrix<double, N, 1>& value) {
-  return shown(Eigen::VectorXd(value));
-}
-
 template <class Space>
 void bind_parameters(py::module_& m) {
   using P = typename Space::Parameters;
@@ -88,11 +81,6 @@ void bind_parameters(py::module_& m) {
 }
 
 // Runs
-
-/// What a refused call of the loop says in Python.
-inline void require_accepted(Status status, const std::string& message) {
-  if (status == Status::invalid_input) throw InvalidArgument(message);
-}
 
 /// A Python function as a coupling. What it raises is kept for after the step: nothing leaves the loop.
 template <class Space>
@@ -123,22 +111,6 @@ Status step_coupled(Run& run, double dt, const py::object& function) {
   if (!coupling.raised) return status;
   run = before;
   std::rethrow_exception(coupling.raised);
-}
-
-/// True while the motion runs, False when it has finished.
-inline bool is_running(Status status, double dt) {
-  switch (status) {
-    case Status::running:
-      return true;
-    case Status::finished:
-      return false;
-    case Status::invalid_input:
-      throw InvalidArgument("dt: " + std::to_string(dt) + ", expected a time in s from 0 to 10 durations.");
-    default:
-      PyErr_SetString(PyExc_FloatingPointError,
-                      "step: the state is no longer finite; the last finite output is kept. Call reset().");
-      throw py::error_already_set();
-  }
 }
 
 template <class Space>
@@ -220,6 +192,7 @@ void bind_run(py::module_& m) {
                                  " (wrong size or not finite); nothing changed.");
           },
           py::arg(naming.start_point), py::arg(naming.start_velocity), naming.start_doc);
+  def_adaptation<Space>(run);
   InPython<Space>::outputs(run);
 }
 
@@ -340,28 +313,33 @@ void def_rollout(py::class_<Primitive<Space>>& model) {
       .def(
           "rollout",
           [to_goal](const Model& d, const std::optional<Given>& goal, std::optional<double> duration,
-                    double dt) {
+                    double dt, const std::vector<GivenVia>& via) {
             const Goal target = to_goal(goal);
+            const auto vias = to_vias<Space>(via);
             const py::gil_scoped_release release;
-            return d.rollout(target, duration, dt);
+            return d.rollout(target, duration, dt, vias);
           },
           py::arg("goal") = py::none(), py::arg("duration") = py::none(), py::arg("dt") = 1e-3,
+          py::arg("via") = py::tuple(),
           "The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated "
           "one "
           "unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the "
           "duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, "
-          "more than 10^7 samples, or a motion that does not stay finite.")
+          "more than 10^7 samples, or a motion that does not stay finite. `via`: a list of Via that it "
+          "passes, "
+          "in the order of their phases.")
       .def(
           "rollout_at",
           [to_goal](const Model& d, const Array& times, const std::optional<Given>& goal,
-                    std::optional<double> duration) {
+                    std::optional<double> duration, const std::vector<GivenVia>& via) {
             const Goal target = to_goal(goal);
+            const auto vias = to_vias<Space>(via);
             const Eigen::VectorXd moments = to_vector(times, "times");
             const py::gil_scoped_release release;
-            return d.rollout_at(moments, target, duration);
+            return d.rollout_at(moments, target, duration, vias);
           },
           py::arg("times"), py::arg("goal") = py::none(), py::arg("duration") = py::none(),
-          "The same at times (T,) in s, increasing from 0 or later.");
+          py::arg("via") = py::tuple(), "The same at times (T,) in s, increasing from 0 or later.");
 }
 
 template <class Space>
@@ -452,6 +430,7 @@ void bind_space(py::module_& m) {
   def_functions<Space>(m);
   bind_run_state<Space>(m);
   bind_run<Space, Run>(m);
+  bind_sequence<Space>(m);
 }
 
 }  // namespace dmp::python

@@ -192,10 +192,10 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
       {"pose_dmp", "acceleration pose position quaternion rotation twist"},
       {"pose_gripper_dmp", "acceleration gripper gripper_velocity pose twist"},
       {"so3", "distance exp exp_quaternion hat left_jacobian left_jacobian_inverse lifted_log log log vee"},
+      {"sequence", "current current output part set_goal state step stretch time"},
       {"stepper",
-       "duration goal output pause paused phase reset resume set_duration set_goal set_tracking_error "
-       "start_from "
-       "status step step time"}};
+       "ahead clear_vias duration goal join move_via output pause paused phase reset resume set_duration "
+       "set_goal set_tracking_error start_from start_from state status step step time via via"}};
   CHECK(found.size() == expected.size());
   for (const auto& [header, names] : expected) {
     CAPTURE(header);

@@ -61,7 +61,7 @@ def test_an_unknown_newer_version_is_refused_with_the_reason(tmp_path):
     text = GOLDEN[0].read_text()
     newer = tmp_path / "newer.json"
     newer.write_text(re.sub(r'"version": \d+', '"version": 1000', text, count=1))
-    with pytest.raises(InvalidArgument, match=r"newer\.json: version: 1000, expected 1 to 2\..*newer dmpcpp: update"):
+    with pytest.raises(InvalidArgument, match=r"newer\.json: version: 1000, expected 1 to 3\..*newer dmpcpp: update"):
         dmpcpp.load(newer)
 
 

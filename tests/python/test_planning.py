@@ -4,7 +4,16 @@ import json
 
 import numpy as np
 import pytest
-from dmpcpp import Arm, JointTrajectory, PoseDemonstration, PoseDmp, duration_factor, planning
+from dmpcpp import (
+    Arm,
+    JointTrajectory,
+    PoseDemonstration,
+    PoseDmp,
+    PoseDmpSequence,
+    Via,
+    duration_factor,
+    planning,
+)
 from dmpcpp.checks import Series
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot import LimitUse
@@ -122,6 +131,51 @@ def test_what_cannot_be_planned_is_refused_by_its_argument(arm, model, options, 
     with pytest.raises(InvalidArgument) as refused:
         planning.plan(model, arm, **options)
     assert refused.value.argument == argument
+
+
+def test_a_plan_passes_a_place_that_is_set_for_it_and_keeps_its_ends(arm, model):
+    plain = planning.plan(model, arm)
+    place = model.rollout_at([0.5 * model.duration]).pose[0][:3, 3] + [0.02, -0.02, 0.03]
+    found = planning.plan(model, arm, via=planning.at_phases(model, [(0.5, place)]))
+    middle = len(found.motion.time) // 2
+    np.testing.assert_allclose(found.motion.position[middle], place, atol=1e-8)
+    np.testing.assert_allclose(found.motion.rotation[middle], plain.motion.rotation[middle], atol=1e-8)
+    np.testing.assert_allclose(found.motion.pose[[0, -1]], plain.motion.pose[[0, -1]], atol=1e-12)
+    assert found.ok and found.summary()["via"][0]["phase"] == 0.5
+    reached = arm.forward_kinematics(found.joints.position)[middle]
+    np.testing.assert_allclose(reached[:3, 3], place, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("via", "words"),
+    [
+        (Via(0.5, np.eye(3)), r"via\[0\].point"),
+        (Via(0.5, np.diag([1.0, 1.0, 1.0, 1.0]) + np.pad([[9.0]], ((0, 3), (3, 0)))), r"via\[0\].point.*stretched out"),
+        (Via(1.0, np.eye(4)), r"via\[0\].phase: 1, expected 0.01 to 0.99"),
+    ],
+)
+def test_via_points_that_cannot_be_planned_are_refused_by_name(arm, model, via, words):
+    with pytest.raises(InvalidArgument, match=words):
+        planning.plan(model, arm, via=[via])
+
+
+def test_velocities_of_via_points_slow_down_with_the_plan(arm, model):
+    pose = model.rollout_at([0.5 * model.duration]).pose[0]
+    twist = np.array([0.5, 0, 0, 0, 0, 0])
+    found = planning.plan(model, arm, duration=0.2, via=[Via(0.5, pose, twist)])
+    assert found.slowdown > 1.5
+    middle = len(found.motion.time) // 2
+    np.testing.assert_allclose(found.motion.twist[middle] * found.slowdown, twist, atol=1e-6)
+
+
+def test_a_sequence_is_planned_like_a_model(arm, model):
+    back = swing(arm, first=THERE, last=HOME)
+    found = planning.plan(PoseDmpSequence([model, back], leave=[0.9, 1.0], reach=0.3), arm)
+    assert found.ok
+    assert found.motion.time[-1] == pytest.approx(found.slowdown * (0.9 * model.duration + back.duration))
+    np.testing.assert_allclose(found.motion.pose[-1], back.goal, atol=1e-3)
+    with pytest.raises(InvalidArgument, match="via: of a sequence"):
+        planning.plan(PoseDmpSequence([model, back]), arm, via=planning.at_phases(model, [(0.5, [0.3, 0, 0.4])]))
 
 
 def test_another_branch_is_taken_where_the_first_is_not_accepted():

@@ -252,6 +252,58 @@ ENTRIES |= {
     ),
 }
 
+PAIRS = {kind: getattr(dmpcpp, f"{kind}Sequence") for kind in MODELS}
+
+
+def adaptation_entries(kind: str) -> dict[str, Entry]:
+    """The calls that adapt a run of one kind, and its sequences."""
+    run, model, pair = KINDS[kind], MODELS[kind], PAIRS[kind]
+    velocity = np.full(model.dimension, 0.1)
+    running = f"{kind}SequenceRun"
+    start = getattr(dmpcpp, running)
+    return {
+        f"{run.__name__}.via": (
+            lambda **values: after_step(run(model), lambda r: r.via(**values)),
+            {"phase": 0.5, "point": model.start, "velocity": velocity, "reach": 0.2},
+        ),
+        f"{run.__name__}.move_via": (lambda point: moved_via(run(model), point), {"point": model.start}),
+        f"{run.__name__}.ahead": (lambda phase: run(model).ahead(phase), {"phase": 0.5}),
+        f"{run.__name__}.join": (
+            lambda reach: after_step(run(model), lambda r: r.join(model, reach)),
+            {"reach": 0.2},
+        ),
+        f"{kind}Sequence.__init__": (
+            lambda **values: pair([model, model], **values).rollout(dt=0.1),
+            {"leave": 0.8, "reach": 0.3},
+        ),
+        f"{kind}Sequence.rollout": (pair([model, model]).rollout, {"goal": model.goal, "duration": 1.0, "dt": 0.1}),
+        f"{kind}Sequence.rollout_at": (pair([model, model]).rollout_at, {"times": TIME, "duration": 1.0}),
+        f"{running}.step": (lambda dt: after(start(pair([model, model])), "step", dt), {"dt": 0.1}),
+        f"{running}.set_goal": (lambda goal: after(start(pair([model])), "set_goal", goal), {"goal": model.goal}),
+        f"{running}.stretch": (lambda factor: after(start(pair([model])), "stretch", factor), {"factor": 2.0}),
+    }
+
+
+def after_step(run: Any, call: Callable[[Any], Any]) -> Any:
+    """Return a run after a call and a step."""
+    call(run)
+    run.step(0.1)
+    return run
+
+
+def moved_via(run: Any, point: Any) -> Any:
+    """Return a run whose via-point was moved."""
+    run.via(0.5, run.goal)
+    return after_step(run, lambda r: r.move_via(0.5, point))
+
+
+for kind in MODELS:
+    ENTRIES |= adaptation_entries(kind)
+ENTRIES["Via.__init__"] = (
+    lambda **values: MODELS["PoseDmp"].rollout(dt=0.1, via=[dmpcpp.Via(**values)]),
+    {"phase": 0.5, "point": MODELS["PoseDmp"].start, "velocity": np.ones(6), "reach": 0.2},
+)
+
 RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "step": lambda run, value: run.step(value),
     "duration": lambda run, value: setattr(run, "duration", value),
@@ -263,7 +315,13 @@ RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
 NO_NUMBERS = {"Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
               "FollowOptions.__init__", "TrackOptions.__init__", "average", "from_json", "load", "save",
               "to_json", "PoseDemonstration.noise_estimates", "fit_forcing", "PoseGripperDmp.fit",
-              "PoseGripperRun.__init__", "DmpOptions.validate"}  # fmt: skip
+              "PoseGripperRun.__init__", "DmpOptions.validate",
+              *(f"PoseGripperRun.{name}" for name in ("via", "move_via", "ahead", "join"))}  # fmt: skip
+for name in ("__init__", "rollout", "rollout_at"):
+    NO_NUMBERS.add(f"PoseGripperDmpSequence.{name}")
+for name in ("__init__", "step", "set_goal", "stretch"):
+    NO_NUMBERS.add(f"PoseGripperDmpSequenceRun.{name}")
+NO_NUMBERS |= {f"{kind}SequenceRun.__init__" for kind in MODELS}
 for kind in (*MODELS, "PoseGripperDmp"):
     NO_NUMBERS |= {f"{kind}.__init__", f"{kind}.targets", f"{kind}Parameters.__init__"}
 
@@ -327,7 +385,7 @@ def state(run: Any) -> list[bytes]:
     return [
         np.asarray(getattr(run, name)).tobytes()
         for name in sorted(dir(type(run)))
-        if isinstance(getattr(type(run), name), property) and name != "status"
+        if isinstance(getattr(type(run), name), property) and name not in ("status", "state")
     ] + [run.status.name.encode()]
 
 

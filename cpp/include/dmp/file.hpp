@@ -5,6 +5,7 @@
 #include <dmp/orientation_dmp.hpp>
 #include <dmp/pose_dmp.hpp>
 #include <dmp/pose_gripper_dmp.hpp>
+#include <dmp/sequence.hpp>
 
 #include <string>
 #include <variant>
@@ -12,7 +13,8 @@
 /// Model files: JSON, versioned, every number as it was to the last bit. Schema: docs/model-file.md.
 namespace dmp {
 
-using Model = std::variant<Dmp, OrientationDmp, PoseDmp, PoseGripperDmp>;
+using Model = std::variant<Dmp, OrientationDmp, PoseDmp, PoseGripperDmp, DmpSequence, OrientationDmpSequence,
+                           PoseDmpSequence, PoseGripperDmpSequence>;
 
 /// Throws InvalidArgument for a model that from_json would refuse for its size.
 DMP_EXPORT std::string to_json(const Model& model);

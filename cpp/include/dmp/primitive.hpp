@@ -4,6 +4,7 @@
 #include <dmp/forcing.hpp>
 #include <dmp/options.hpp>
 #include <dmp/trajectory.hpp>
+#include <dmp/via.hpp>
 
 #include <Eigen/Core>
 #include <functional>
@@ -79,12 +80,14 @@ class DMP_EXPORT Primitive {
   /// The motion from the demonstrated start to `goal` (the demonstrated one unless given) within `duration`
   /// (s; the demonstrated one unless given), at 0, dt, ... up to the duration: floor(duration / dt + 1e-6) +
   /// 1 samples. Throws InvalidArgument for a wrong size, a number that is not finite or not positive, more
-  /// than 10^7 samples, or a motion that does not stay finite.
+  /// than 10^7 samples, or a motion that does not stay finite. It passes `vias`, in the order of their
+  /// phases; throws InvalidArgument, naming the via-point, for phases, points, velocities or reaches out of
+  /// range.
   Trajectory rollout(const std::optional<Point>& goal = {}, std::optional<double> duration = {},
-                     double dt = 1e-3) const;
+                     double dt = 1e-3, const std::vector<Via<Space>>& vias = {}) const;
   /// The same at times (T) in s, increasing from 0 or later.
   Trajectory rollout_at(const Eigen::VectorXd& times, const std::optional<Point>& goal = {},
-                        std::optional<double> duration = {}) const;
+                        std::optional<double> duration = {}, const std::vector<Via<Space>>& vias = {}) const;
   /// One motion for each goal and duration, `samples` (2 or more) evenly from 0 to its duration: what
   /// rollout(goal, duration, duration / (samples - 1)) gives, bit for bit. goals or durations may be empty:
   /// the demonstrated one for all; otherwise there must be as many of both. None is kept: each is handed to

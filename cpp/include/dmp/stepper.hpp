@@ -5,6 +5,7 @@
 #include <dmp/primitive.hpp>
 #include <dmp/realtime.hpp>
 #include <dmp/status.hpp>
+#include <dmp/via.hpp>
 
 #include <memory>
 
@@ -47,9 +48,39 @@ class DMP_EXPORT Stepper {
   /// Begins anew at a point with a velocity (d, per s; rotations in rad/s, world frame), at the goal and
   /// duration that were set last.
   Status start_from(PointArgument point, TangentArgument velocity) noexcept DMP_REALTIME;
-  /// Begins anew at the demonstrated start, with the goal and duration that were set last. A pause goes on.
+  /// Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within
+  /// the rise of `reach`: position, velocity and acceleration do not jump, and behind it nothing is changed.
+  /// Refused while paused.
+  Status start_from(PointArgument point, TangentArgument velocity, const Reach& reach) noexcept DMP_REALTIME;
+  /// Begins anew at the demonstrated start, with the goal, duration and via-points that were set last. A
+  /// pause goes on.
   void reset() noexcept DMP_REALTIME;
 
+  /// Passes `point` at a phase that lies ahead, and changes the motion within `reach` only: exactly, whatever
+  /// happens to the goal, the duration or the point (move_via) until then; with a coupling as closely as the
+  /// coupling lets foresee. With `velocity` (d, per s at the duration that is set) it has that there. A
+  /// via-point that is set again at its phase is replaced. At most 16 at once, 0.01 or more from each other
+  /// and from both ends of the phase (else invalid_input); too_late where less than 0.01 is left until there.
+  Status via(double phase, PointArgument point, const Reach& reach = {}) noexcept DMP_REALTIME;
+  Status via(double phase, PointArgument point, TangentArgument velocity,
+             const Reach& reach = {}) noexcept DMP_REALTIME;
+  /// The via-point that was set at `phase` has moved; invalid_input if there is none, too_late if it lies
+  /// behind.
+  Status move_via(double phase, PointArgument point) noexcept DMP_REALTIME;
+  /// Forgets all via-points; what is under way fades within its reach.
+  void clear_vias() noexcept DMP_REALTIME;
+  /// Goes on with another motion from the present state: `next`, a run of the same space that stands where it
+  /// shall begin, with its goal, duration and via-points set. Position, velocity and acceleration do not
+  /// jump; what lies between the two motions fades within the rise of `reach`, a part of the phase of `next`.
+  /// The two runs change places: `next` is the old one afterwards, so that nothing is set free in the loop.
+  /// invalid_input for another dimension, a run that is paused or not finite, or itself.
+  Status join(Stepper& next, const Reach& reach = {}) noexcept DMP_REALTIME;
+  /// Where the run will be at a phase from now to 1 if nothing changes until then, via-points included; speed
+  /// and velocity at the duration that is set. Valid until the next call.
+  const CouplingState<Space>& ahead(double phase) noexcept DMP_REALTIME;
+
+  /// Where the run is, as `ahead` says of later phases. Valid until the next call of either.
+  const CouplingState<Space>& state() noexcept DMP_REALTIME;
   typename Space::Output output() const noexcept DMP_REALTIME;   ///< where the run is, the last finite one
   typename Space::PointView goal() const noexcept DMP_REALTIME;  ///< the one set last
   double time() const noexcept DMP_REALTIME;                     ///< s since the start
@@ -58,6 +89,7 @@ class DMP_EXPORT Stepper {
   Status status() const noexcept DMP_REALTIME;
 
  private:
+  static constexpr int kMostVias = 16;
   struct State;
   std::unique_ptr<State> state_;
 };

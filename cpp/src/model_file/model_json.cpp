@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/text.hpp"
 #include "primitive/option_fields.hpp"
 #include "primitive/parameters.hpp"
 
@@ -27,31 +28,93 @@ constexpr const char* kind_of<PoseDmp> = "pose_dmp";
 template <>
 constexpr const char* kind_of<PoseGripperDmp> = "pose_gripper_dmp";
 
-constexpr int kVersion = 2;  // 1: without fields that may be empty
+template <>
+constexpr const char* kind_of<DmpSequence> = "dmp_sequence";
+template <>
+constexpr const char* kind_of<OrientationDmpSequence> = "orientation_dmp_sequence";
+template <>
+constexpr const char* kind_of<PoseDmpSequence> = "pose_dmp_sequence";
+template <>
+constexpr const char* kind_of<PoseGripperDmpSequence> = "pose_gripper_dmp_sequence";
+
+// A model has the oldest version that can hold it, so that older libraries read it.
+constexpr int kFieldsThatMayBeEmpty = 2;
+constexpr int kSequences = 3;
+constexpr int kNewest = kSequences;
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
 constexpr std::size_t kMostObjects = 100;  // after each the parser looks through all that its parent holds
 constexpr int kDeepest = 8;
 
-template <class Primitive>
-Json to_json(const Primitive& model) {
+template <class Space>
+Json to_json(const Primitive<Space>& model) {
   const auto& parameters = model.parameters();
   Json options = Json::object();
   visit_options(JsonWriter(options), parameters.options);
-  Json json{
-      {"format", "dmpcpp"}, {"version", 1}, {"kind", kind_of<Primitive>}, {"options", std::move(options)}};
+  Json json{{"format", "dmpcpp"},
+            {"version", 1},
+            {"kind", kind_of<Primitive<Space>>},
+            {"options", std::move(options)}};
   visit_fields(parameters, JsonWriter(json));
   visit_optional_fields(parameters, [&](const char* name, const RowMatrix& table) {
-    if (table.rows() == 0) return;  // so that older versions can read it
-    json["version"] = kVersion;
+    if (table.rows() == 0) return;
+    json["version"] = kFieldsThatMayBeEmpty;
     json[name] = to_rows(table);
   });
   return json;
 }
 
-template <class Primitive>
-Primitive read(const Json& json) {
-  typename Primitive::Parameters parameters;
+template <class Space>
+Json to_json(const Via<Space>& via) {
+  Json json = Json::object();
+  const JsonWriter write(json);
+  write("phase", via.phase);
+  write("point", via.point);
+  if (via.velocity) write("velocity", *via.velocity);
+  write("reach", Eigen::VectorXd(Eigen::Vector2d(via.reach.rise, via.reach.fall)));
+  return json;
+}
+
+template <class Space>
+Json to_json(const Sequence<Space>& sequence) {
+  Json parts = Json::array();
+  for (const SequencePart<Space>& part : sequence.parts()) {
+    Json one{{"model", to_json(part.model)}, {"leave", part.leave}, {"reach", part.reach}};
+    if (!part.vias.empty()) one["vias"] = Json::array();
+    for (const Via<Space>& via : part.vias) one["vias"].push_back(to_json(via));
+    parts.push_back(std::move(one));
+  }
+  return {{"format", "dmpcpp"},
+          {"version", kSequences},
+          {"kind", kind_of<Sequence<Space>>},
+          {"parts", std::move(parts)}};
+}
+
+/// Format, version and kind of a model.
+std::string kind_in(const Json& json) {
+  if (text_at(member(json, "format", "model"), "format") != "dmpcpp")
+    throw InvalidArgument("format: expected \"dmpcpp\".");
+  const int version = integer_at(member(json, "version", "model"), "version");
+  if (version < 1 || version > kNewest)
+    throw InvalidArgument("version: " + std::to_string(version) + ", expected 1 to " +
+                          std::to_string(kNewest) +
+                          (version > kNewest ? ". The file was written by a newer dmpcpp: update." : "."));
+  return text_at(member(json, "kind", "model"), "kind");
+}
+
+/// `read()`, what it refuses named as a part of `where`.
+template <class Read>
+auto within(const std::string& where, const Read& read) {
+  try {
+    return read();
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument(where + "." + error.what());
+  }
+}
+
+template <class Space>
+Primitive<Space> read(const Json& json, Primitive<Space>*) {
+  typename Space::Parameters parameters;
   visit_options(JsonReader(member(json, "options", "model"), "options", "options."), parameters.options);
   if (parameters.options.basis_count == 0)
     throw InvalidArgument("options.basis_count: 0, expected the number of kernels.");
@@ -60,7 +123,54 @@ Primitive read(const Json& json) {
   visit_optional_fields(parameters, [&](const char* name, RowMatrix& table) {
     if (json.contains(name)) reader(name, table);
   });
-  return Primitive(parameters);
+  return Primitive<Space>(parameters);
+}
+
+const Json& list_in(const Json& json, const char* key, const char* where) {
+  const Json& list = member(json, key, where);
+  if (!list.is_array()) throw InvalidArgument(std::string(key) + ": expected a list.");
+  return list;
+}
+
+template <class Space>
+Via<Space> read_via(const Json& json) {
+  typename Space::Point point;
+  double phase = 0.0;
+  Eigen::VectorXd reach;
+  const JsonReader reader(json, "via", "");
+  reader("phase", phase);
+  reader("point", point);
+  reader("reach", reach);
+  if (reach.size() != 2) throw InvalidArgument("reach: expected 2 numbers.");
+  Via<Space> via(phase, point, {}, Reach(reach[0], reach[1]));
+  if (json.contains("velocity")) reader("velocity", via.velocity.emplace());
+  return via;
+}
+
+template <class Space>
+SequencePart<Space> read_part(const Json& json) {
+  const Json& model = member(json, "model", "part");
+  if (const std::string kind = kind_in(model); kind != kind_of<Primitive<Space>>)
+    throw InvalidArgument("model.kind: '" + kind + "', expected " + kind_of<Primitive<Space>> + ".");
+  SequencePart<Space> part(
+      within("model", [&] { return read(model, static_cast<Primitive<Space>*>(nullptr)); }));
+  const JsonReader reader(json, "part", "");
+  reader("leave", part.leave);
+  reader("reach", part.reach);
+  if (!json.contains("vias")) return part;
+  for (const Json& via : list_in(json, "vias", "part"))
+    part.vias.push_back(
+        within(indexed("vias", static_cast<long>(part.vias.size())), [&] { return read_via<Space>(via); }));
+  return part;
+}
+
+template <class Space>
+Sequence<Space> read(const Json& json, Sequence<Space>*) {
+  std::vector<SequencePart<Space>> parts;
+  for (const Json& part : list_in(json, "parts", "model"))
+    parts.push_back(
+        within(indexed("parts", static_cast<long>(parts.size())), [&] { return read_part<Space>(part); }));
+  return Sequence<Space>(parts);
 }
 
 /// The model of the alternative whose kind that is.
@@ -71,7 +181,7 @@ Model read_kind(const std::string& kind, const Json& json, std::variant<Kinds...
   const auto attempt = [&](auto* alternative) {
     using Kind = std::remove_pointer_t<decltype(alternative)>;
     known += (known.empty() ? "" : ", ") + std::string(kind_of<Kind>);
-    if (kind == kind_of<Kind>) model = read<Kind>(json);
+    if (kind == kind_of<Kind>) model = read(json, alternative);
   };
   (attempt(static_cast<Kinds*>(nullptr)), ...);
   if (!model) throw InvalidArgument("kind: '" + kind + "' is unknown, expected one of " + known + ".");
@@ -132,28 +242,50 @@ Json model_to_json(const Model& model) {
   return std::visit([](const auto& kind) { return to_json(kind); }, model);
 }
 
-void require_readable(const Model& model) {
-  const RowMatrix& weights =
-      std::visit([](const auto& kind) -> const RowMatrix& { return kind.parameters().weights; }, model);
-  const Eigen::Index advance =
-      std::visit([](const auto& kind) { return kind.parameters().advance.size(); }, model);
-  const auto numbers = static_cast<std::size_t>(weights.size() + advance + 4 * weights.cols() + 100);
+namespace {
+
+template <class Space>
+std::size_t numbers_in(const Primitive<Space>& model) {
+  const RowMatrix& weights = model.parameters().weights;
+  const auto numbers =
+      static_cast<std::size_t>(weights.size() + model.parameters().advance.size() + 4 * weights.cols() + 100);
   if (numbers > kMostNumbers)
     throw InvalidArgument("weights: " + std::to_string(weights.rows()) + " x " +
                           std::to_string(weights.cols()) +
                           ", more than a model file may hold (10^6 numbers in all). Use fewer kernels.");
+  return numbers;
+}
+
+// The objects that a point is in a file: one of a product, which has a member for each part.
+template <class Point>
+constexpr std::size_t objects_of = 0;
+template <class First, class Second>
+constexpr std::size_t objects_of<std::pair<First, Second>> = 1 + objects_of<First> + objects_of<Second>;
+
+template <class Space>
+std::size_t numbers_in(const Sequence<Space>& sequence) {
+  std::size_t numbers = 0;
+  std::size_t objects = 1;
+  for (const SequencePart<Space>& part : sequence.parts()) {
+    numbers += numbers_in(part.model) + 100 * part.vias.size();
+    constexpr std::size_t kPoint = objects_of<typename Space::Point>;
+    objects += 3 + 2 * kPoint + (1 + kPoint) * part.vias.size();
+  }
+  if (numbers > kMostNumbers || objects > kMostObjects)
+    throw InvalidArgument(
+        "parts: more than a model file may hold (10^6 numbers; 100 objects, of which a "
+        "motion takes 3 and a via-point 1). Take fewer motions, kernels or via-points.");
+  return numbers;
+}
+
+}  // namespace
+
+void require_readable(const Model& model) {
+  std::visit([](const auto& kind) { numbers_in(kind); }, model);
 }
 
 Model model_from_json(const Json& json) {
-  if (text_at(member(json, "format", "model"), "format") != "dmpcpp")
-    throw InvalidArgument("format: expected \"dmpcpp\".");
-  const int version = integer_at(member(json, "version", "model"), "version");
-  if (version < 1 || version > kVersion)
-    throw InvalidArgument("version: " + std::to_string(version) + ", expected 1 to " +
-                          std::to_string(kVersion) +
-                          (version > kVersion ? ". The file was written by a newer dmpcpp: update." : "."));
-  const std::string kind = text_at(member(json, "kind", "model"), "kind");
-  return read_kind(kind, json, static_cast<Model*>(nullptr));
+  return read_kind(kind_in(json), json, static_cast<Model*>(nullptr));
 }
 
 }  // namespace dmp::detail

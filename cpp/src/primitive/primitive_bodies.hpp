@@ -160,16 +160,19 @@ Eigen::Index Primitive<Space>::dimension() const noexcept {
 
 template <class Space>
 typename Space::Trajectory Primitive<Space>::rollout(const std::optional<Point>& goal,
-                                                     std::optional<double> duration, double dt) const {
+                                                     std::optional<double> duration, double dt,
+                                                     const std::vector<Via<Space>>& vias) const {
   if (duration) detail::require_duration(*duration);
-  return detail::roll_out(*this, detail::every(dt, duration.value_or(this->duration())), goal, duration);
+  return detail::roll_out(*this, detail::every(dt, duration.value_or(this->duration())), goal, duration,
+                          vias);
 }
 
 template <class Space>
 typename Space::Trajectory Primitive<Space>::rollout_at(const Eigen::VectorXd& times,
                                                         const std::optional<Point>& goal,
-                                                        std::optional<double> duration) const {
-  return detail::roll_out(*this, {times, 0.0}, goal, duration);
+                                                        std::optional<double> duration,
+                                                        const std::vector<Via<Space>>& vias) const {
+  return detail::roll_out(*this, {times, 0.0}, goal, duration, vias);
 }
 
 // Stepper
@@ -177,16 +180,22 @@ typename Space::Trajectory Primitive<Space>::rollout_at(const Eigen::VectorXd& t
 template <class Space>
 struct Stepper<Space>::State {
   Primitive<Space> model;
-  detail::Runner<Space> runner;
-  Eigen::VectorXd start_z;  // demonstrated
-  Eigen::VectorXd z;        // scratch for a start velocity
+  detail::AdaptedRunner<Space> run;
+  Eigen::VectorXd start_z;      // demonstrated
+  Eigen::VectorXd z;            // scratch: a velocity,
+  Eigen::VectorXd rate;         // an acceleration,
+  typename Space::Point point;  // and where they are
 };
 
 template <class Space>
 Stepper<Space>::Stepper(const Primitive<Space>& model)
-    : state_(std::make_unique<State>(State{model, detail::runner_of(model),
-                                           detail::Geometry<Space>::ends_of(model.parameters()).z,
-                                           Eigen::VectorXd::Zero(model.dimension())})) {}
+    : state_(std::make_unique<State>(
+          State{model,
+                {detail::runner_of(model), model.start(), model.dimension(), kMostVias},
+                detail::Geometry<Space>::ends_of(model.parameters()).z,
+                Eigen::VectorXd::Zero(model.dimension()),
+                Eigen::VectorXd::Zero(model.dimension()),
+                model.start()})) {}
 template <class Space>
 Stepper<Space>::Stepper(const Stepper& other) : state_(std::make_unique<State>(*other.state_)) {}
 template <class Space>
@@ -203,37 +212,41 @@ Stepper<Space>::~Stepper() = default;
 
 template <class Space>
 Status Stepper<Space>::step(double dt) noexcept {
-  return state_->runner.step(dt);
+  return state_->run.step(dt);
 }
 template <class Space>
 Status Stepper<Space>::step(double dt, const Coupling<Space>& coupling) noexcept {
-  return state_->runner.step(dt, &coupling);
+  return state_->run.step(dt, &coupling);
 }
 
 template <class Space>
 Status Stepper<Space>::set_goal(PointArgument goal) noexcept {
   if (!detail::Geometry<Space>::accepts(goal, state_->model.start())) return Status::invalid_input;
-  return state_->runner.set_goal(goal);
+  const Status status = state_->run.runner.set_goal(goal);
+  state_->run.adaptation.changed(phase());
+  return status;
 }
 template <class Space>
 Status Stepper<Space>::set_duration(double duration) noexcept {
-  return state_->runner.set_duration(duration);
+  const Status status = state_->run.runner.set_duration(duration);
+  state_->run.adaptation.changed_tempo(phase());
+  return status;
 }
 template <class Space>
 Status Stepper<Space>::set_tracking_error(double error) noexcept {
-  return state_->runner.set_tracking_error(error);
+  return state_->run.runner.set_tracking_error(error);
 }
 template <class Space>
 void Stepper<Space>::pause() noexcept {
-  state_->runner.pause();
+  state_->run.runner.pause();
 }
 template <class Space>
 void Stepper<Space>::resume() noexcept {
-  state_->runner.resume();
+  state_->run.runner.resume();
 }
 template <class Space>
 bool Stepper<Space>::paused() const noexcept {
-  return state_->runner.phase().paused();
+  return state_->run.runner.phase().paused();
 }
 
 template <class Space>
@@ -241,37 +254,95 @@ Status Stepper<Space>::start_from(PointArgument point, TangentArgument velocity)
   const bool fits = velocity.size() == state_->z.size() && velocity.allFinite();
   if (!fits || !detail::Geometry<Space>::accepts(point, state_->model.start())) return Status::invalid_input;
   state_->z = duration() * velocity;
-  return state_->runner.restart(point, state_->z);
+  state_->run.adaptation.restart(0.0);
+  return state_->run.runner.restart(point, state_->z);
+}
+template <class Space>
+Status Stepper<Space>::start_from(PointArgument point, TangentArgument velocity,
+                                  const Reach& reach) noexcept {
+  const bool fits = velocity.size() == state_->z.size() && velocity.allFinite() && detail::is_reach(reach);
+  if (!fits || paused() || !detail::Geometry<Space>::accepts(point, state_->model.start()))
+    return Status::invalid_input;
+  state_->z = velocity;
+  reset();
+  state_->rate.setZero();
+  state_->run.bridge_from(point, state_->z.data(), state_->rate.data(), reach);
+  return status();
+}
+template <class Space>
+Status Stepper<Space>::join(Stepper& next, const Reach& reach) noexcept {
+  if (&next == this || !detail::is_reach(reach) || next.paused() || next.status() == Status::not_finite ||
+      status() == Status::not_finite || next.state_->z.size() != state_->z.size())
+    return Status::invalid_input;
+  using Motion = detail::OffsetIn<Space>;
+  Motion::point(output(), state_->point);
+  Motion::velocity(output(), 1.0, state_->z.data());
+  Motion::acceleration(output(), state_->rate.data());
+  next.state_->run.bridge_from(state_->point, state_->z.data(), state_->rate.data(), reach);
+  state_.swap(next.state_);
+  return status();
+}
+
+template <class Space>
+Status Stepper<Space>::via(double phase, PointArgument point, const Reach& reach) noexcept {
+  if (!detail::Geometry<Space>::accepts(point, state_->model.start())) return Status::invalid_input;
+  return state_->run.adaptation.set(this->phase(), phase, point, nullptr, reach);
+}
+template <class Space>
+Status Stepper<Space>::via(double phase, PointArgument point, TangentArgument velocity,
+                           const Reach& reach) noexcept {
+  const bool fits = velocity.size() == state_->z.size() && velocity.allFinite();
+  if (!fits || !detail::Geometry<Space>::accepts(point, state_->model.start())) return Status::invalid_input;
+  state_->z = velocity;
+  return state_->run.adaptation.set(this->phase(), phase, point, state_->z.data(), reach);
+}
+template <class Space>
+Status Stepper<Space>::move_via(double phase, PointArgument point) noexcept {
+  if (!detail::Geometry<Space>::accepts(point, state_->model.start())) return Status::invalid_input;
+  return state_->run.adaptation.move(this->phase(), phase, point);
+}
+template <class Space>
+void Stepper<Space>::clear_vias() noexcept {
+  state_->run.adaptation.clear(phase());
+}
+template <class Space>
+const CouplingState<Space>& Stepper<Space>::ahead(double phase) noexcept {
+  return state_->run.adaptation.ahead(state_->run.runner, phase);
 }
 
 template <class Space>
 void Stepper<Space>::reset() noexcept {
-  state_->runner.restart(state_->model.start(), state_->start_z);
+  state_->run.adaptation.restart(0.0);
+  state_->run.runner.restart(state_->model.start(), state_->start_z);
 }
 
 template <class Space>
+const CouplingState<Space>& Stepper<Space>::state() noexcept {
+  return state_->run.adaptation.present(state_->run.runner);
+}
+template <class Space>
 typename Space::Output Stepper<Space>::output() const noexcept {
-  return state_->runner.system().output();
+  return state_->run.system().output();
 }
 template <class Space>
 typename Space::PointView Stepper<Space>::goal() const noexcept {
-  return state_->runner.system().goal();
+  return state_->run.system().goal();
 }
 template <class Space>
 double Stepper<Space>::time() const noexcept {
-  return state_->runner.phase().time();
+  return state_->run.runner.phase().time();
 }
 template <class Space>
 double Stepper<Space>::phase() const noexcept {
-  return state_->runner.phase().s();
+  return state_->run.runner.phase().s();
 }
 template <class Space>
 double Stepper<Space>::duration() const noexcept {
-  return state_->runner.phase().duration();
+  return state_->run.runner.phase().duration();
 }
 template <class Space>
 Status Stepper<Space>::status() const noexcept {
-  return state_->runner.status();
+  return state_->run.runner.status();
 }
 
 }  // namespace dmp

@@ -77,6 +77,11 @@ class ProductSystem {
     second_.publish();
   }
 
+  void displace(const Shift& by) noexcept {
+    first_.displace(by);
+    second_.displace(by.from(first_.dimension()));
+  }
+
   typename Space::Output output() const noexcept { return {first_.output(), second_.output()}; }
   typename Space::PointView goal() const noexcept { return P::view(first_.goal(), second_.goal()); }
   typename Space::PointView point() const noexcept { return P::view(first_.point(), second_.point()); }

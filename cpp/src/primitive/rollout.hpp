@@ -8,8 +8,10 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/text.hpp"
+#include "primitive/adaptation.hpp"
 #include "primitive/product_space.hpp"
 #include "primitive/runner.hpp"
 
@@ -60,17 +62,37 @@ void step_through(Runner& runner, const Timetable& timetable, Record record) {
   }
 }
 
+/// Throws InvalidArgument, naming it, unless vias[j] can be passed.
+template <class Space>
+void require_via(const std::vector<Via<Space>>& vias, std::size_t j, const typename Space::Point& like,
+                 Eigen::Index axes) {
+  const Via<Space>& via = vias[j];
+  const std::string name = indexed("via", static_cast<long>(j));
+  const double least = j == 0 ? kLeastReach : vias[j - 1].phase + kLeastReach;
+  if (!(via.phase >= least - 1e-9 && via.phase <= 1.0 - kLeastReach))
+    throw InvalidArgument(name + ".phase: " + number(via.phase) + ", expected " + number(least) + " to " +
+                          number(1.0 - kLeastReach) +
+                          ": via-points in the order of their phases, 0.01 or more from each other and from "
+                          "the start (0) and the end (1).");
+  Geometry<Space>::require(via.point, like, name + ".point");
+  if (via.velocity && !(via.velocity->size() == axes && via.velocity->allFinite()))
+    throw InvalidArgument(name + ".velocity: of the wrong size or not finite, expected " +
+                          std::to_string(axes) + " finite numbers per s.");
+  if (!is_reach(via.reach))
+    throw InvalidArgument(name + ".reach: " + number(via.reach.rise) + ", " + number(via.reach.fall) +
+                          ", expected parts of the phase, 0.01 to 1.");
+}
+
 template <class Space>
 Runner<Space> runner_of(const Primitive<Space>& model) {
   return Runner<Space>(model.options(), model.forcing_of_run(), model.duration(),
                        Geometry<Space>::ends_of(model.parameters()));
 }
 
-/// Rolls a model out and calls take(k, output) at each time.
-template <class Space, class Take>
-void follow(const Primitive<Space>& model, const Timetable& timetable,
-            const std::optional<typename Space::Point>& goal, std::optional<double> duration, Take take) {
-  Runner<Space> runner = runner_of(model);
+/// Sets what a rollout is asked for, and leads it through the times.
+template <class Space, class Runner, class Stepped, class Record>
+void lead(Runner& runner, Stepped& stepped, const Primitive<Space>& model, const Timetable& timetable,
+          const std::optional<typename Space::Point>& goal, std::optional<double> duration, Record record) {
   if (duration) {
     require_duration(*duration);
     runner.set_duration(*duration);
@@ -79,17 +101,49 @@ void follow(const Primitive<Space>& model, const Timetable& timetable,
     Geometry<Space>::require(*goal, model.start(), "goal");
     runner.start_with_goal(*goal);
   }
-  step_through(runner, timetable, [&](Eigen::Index k) { take(k, runner.system().output()); });
+  step_through(stepped, timetable, record);
+}
+
+/// Rolls a model out and calls take(k, output) at each time.
+template <class Space, class Take>
+void follow(const Primitive<Space>& model, const Timetable& timetable,
+            const std::optional<typename Space::Point>& goal, std::optional<double> duration, Take take) {
+  Runner<Space> runner = runner_of(model);
+  lead(runner, runner, model, timetable, goal, duration,
+       [&](Eigen::Index k) { take(k, runner.system().output()); });
+}
+
+/// The same past via-points.
+template <class Space, class Take>
+void follow(const Primitive<Space>& model, const Timetable& timetable,
+            const std::optional<typename Space::Point>& goal, std::optional<double> duration,
+            const std::vector<Via<Space>>& vias, Take take) {
+  const int count = static_cast<int>(vias.size());
+  AdaptedRunner<Space> run(runner_of(model), model.start(), model.dimension(), count);
+  for (std::size_t j = 0; j < vias.size(); ++j) {
+    require_via<Space>(vias, j, model.start(), model.dimension());
+    const Via<Space>& via = vias[j];
+    run.adaptation.set(0.0, via.phase, via.point, via.velocity ? via.velocity->data() : nullptr, via.reach);
+  }
+  lead(run.runner, run, model, timetable, goal, duration,
+       [&](Eigen::Index k) { take(k, run.system().output()); });
 }
 
 template <class Space>
 typename Space::Trajectory roll_out(const Primitive<Space>& model, const Timetable& timetable,
                                     const std::optional<typename Space::Point>& goal,
-                                    std::optional<double> duration) {
+                                    std::optional<double> duration,
+                                    const std::vector<Via<Space>>& vias = {}) {
   using G = Geometry<Space>;
   typename Space::Trajectory result = G::room_for(timetable.times, model.start());
-  follow(model, timetable, goal, duration,
-         [&](Eigen::Index k, const typename Space::Output& output) { G::record(result, k, output); });
+  const auto record = [&](Eigen::Index k, const typename Space::Output& output) {
+    G::record(result, k, output);
+  };
+  if (vias.empty()) {
+    follow(model, timetable, goal, duration, record);
+  } else {
+    follow(model, timetable, goal, duration, vias, record);
+  }
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "primitive/ends.hpp"
 #include "primitive/forcing_scale.hpp"
 #include "primitive/goal_filter.hpp"
+#include "primitive/offset_space.hpp"
 #include "primitive/spring_damper.hpp"
 #include "primitive/turning_system.hpp"
 
@@ -38,6 +39,8 @@ class RotationSystem {
   void advance(double step, const Nodes& drive) noexcept;
   bool compute_outputs(double speed, double speed_rate, const double* drive) noexcept;
   void publish() noexcept;
+  /// Adds an offset to the outputs, its derivatives per s; what moves on stays as it is.
+  void displace(const Shift& by) noexcept { OffsetIn<RotationSpace>::displace(outputs_, by); }
 
   RotationSpace::Output output() const noexcept { return outputs_; }
   RotationSpace::PointView goal() const noexcept { return goal_.target().toRotationMatrix(); }

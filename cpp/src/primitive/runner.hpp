@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "primitive/offset_path.hpp"
 #include "primitive/product_system.hpp"
 
 namespace dmp::detail {
@@ -34,6 +35,7 @@ class Runner {
         nodes_(RowMatrix::Zero(3, forcing.dimension())),
         drive_(RowMatrix::Zero(3, forcing.dimension())),
         coupling_value_(Eigen::VectorXd::Zero(ends.z.size())),
+        shift_(RowMatrix::Zero(3, ends.z.size())),
         psi_(forcing.basis().window_capacity()),
         force_after_end_(options.force_after_end),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
@@ -91,9 +93,29 @@ class Runner {
     return status_ = publish() ? Status::running : Status::not_finite;
   }
 
+  /// What is added to the outputs from now on; it must outlive the runner.
+  void set_offset(const OffsetPath* offset) noexcept { offset_ = offset; }
+  /// The outputs anew, after the offset changed; whether they are finite.
+  bool republish() noexcept { return publish(); }
+
+  /// Takes over the own motion of another runner of the same model, as it is now, to look ahead.
+  void shadow(const Runner& other) noexcept {
+    system_ = other.system_;
+    seen_ = other.phase_.s();
+    evaluated_at_ = kNowhere;
+  }
+  /// Goes on to s, as nothing changes until then; the outputs are per unit of phase.
+  void look(double s) noexcept {
+    advance_evenly(seen_, s - seen_, true);
+    seen_ = s;
+    publish_at(s, true, 1.0, 0.0);
+  }
+  System<Space>& seen() noexcept { return system_; }
+
  private:
   static constexpr double kFarthest = 10.0;  // durations in one call: bounds the work
   static constexpr double kNowhere = -1.0;
+  static constexpr double kLargestShift = 1e100;
   enum Node : Eigen::Index { kStart, kMiddle, kEnd };
 
   static double largest_rate(const DmpOptions& options) {
@@ -106,13 +128,27 @@ class Runner {
   /// Outputs from the state as it is; false, and the last ones stay, if they are not finite.
   bool publish() noexcept {
     const bool on = force_after_end_ || !phase_.past_end();
-    if (!on || !evaluated(phase_.s())) evaluate(kEnd, phase_.s(), on);
-    evaluated_at_ = on ? phase_.s() : kNowhere;
-    system_.set_phase(phase_.s());
-    if (coupling_ != nullptr) evaluate_coupling(phase_.s());
-    if (!system_.compute_outputs(phase_.speed(), phase_.speed_rate(), drive(kEnd))) return false;
+    const bool shifted = offset_ != nullptr && offset_->active() && offset_->at(phase_.s(), shift_.data());
+    if (shifted && !shift_over_time()) return false;
+    if (!publish_at(phase_.s(), on, phase_.speed(), phase_.speed_rate())) return false;
+    if (shifted) system_.displace({shift_.row(0).data(), shift_.row(1).data(), shift_.row(2).data()});
+    return true;
+  }
+  bool publish_at(double s, bool on, double speed, double speed_rate) noexcept {
+    if (!on || !evaluated(s)) evaluate(kEnd, s, on);
+    evaluated_at_ = on ? s : kNowhere;
+    system_.set_phase(s);
+    if (coupling_ != nullptr) evaluate_coupling(s);
+    if (!system_.compute_outputs(speed, speed_rate, drive(kEnd))) return false;
     system_.publish();
     return true;
+  }
+  /// Takes the derivatives of the offset from phase to time; false unless their products stay finite.
+  [[gnu::noinline]] bool shift_over_time() noexcept {
+    const double speed = phase_.speed();
+    shift_.row(2) = speed * speed * shift_.row(2) + phase_.speed_rate() * shift_.row(1);
+    shift_.row(1) *= speed;
+    return (shift_.array().abs() < kLargestShift).all();
   }
 
   // The forcing term at the nodes of a step.
@@ -197,6 +233,9 @@ class Runner {
   const Coupling<Space>* coupling_ = nullptr;  // of the call that is under way
   CouplingState<Space> coupling_state_;        // what the coupling is shown
   Eigen::VectorXd coupling_value_;             // what it answered, as a drive
+  const OffsetPath* offset_ = nullptr;
+  RowMatrix shift_;    // the offset at the present phase
+  double seen_ = 0.0;  // the phase that a runner which looks ahead has come to
   Eigen::VectorXd psi_;
   double evaluated_at_ = kNowhere;  // the phase whose forcing stands in the last node
   bool force_after_end_;

@@ -7,6 +7,7 @@
 #include "primitive/ends.hpp"
 #include "primitive/forcing_scale.hpp"
 #include "primitive/goal_filter.hpp"
+#include "primitive/offset_space.hpp"
 #include "primitive/spring_damper.hpp"
 
 namespace dmp::detail {
@@ -40,6 +41,8 @@ class VectorSystem {
   bool compute_outputs(double speed, double speed_rate, const double* drive) noexcept;
   /// Makes what was computed the outputs.
   void publish() noexcept;
+  /// Adds an offset to the outputs, its derivatives per s; what moves on stays as it is.
+  void displace(const Shift& by) noexcept { OffsetIn<VectorSpace>::displace(outputs_, by); }
 
   VectorSpace::Output output() const noexcept { return outputs_; }
   VectorSpace::PointView goal() const noexcept { return goal_.target(); }

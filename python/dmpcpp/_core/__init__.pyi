@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'align', 'assess', 'average', 'duration_factor', 'fit_forcing', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'duration_factor', 'fit_forcing', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     @property
     def argument(self) -> typing.Any:
@@ -656,6 +656,7 @@ class Status(enum.Enum):
     invalid_input: typing.ClassVar[Status]
     not_finite: typing.ClassVar[Status]
     running: typing.ClassVar[Status]
+    too_late: typing.ClassVar[Status]
     @classmethod
     def __new__(cls, value):
         ...
@@ -802,6 +803,28 @@ class PoseSpread:
         """
         (K,) 0 to 1
         """
+class Via:
+    """
+    A point or pose that a motion passes at a phase.
+    """
+    def __init__(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Any, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        """
+        phase: 0.01 to 0.99, 0.01 or more from the next one. point: as the model's goal. velocity (d,) per s: what the motion has there, unless it is left free. reach: the part of the phase within which the motion is changed, before and behind, or (before, behind).
+        """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def phase(self) -> float:
+        ...
+    @property
+    def point(self) -> typing.Any:
+        ...
+    @property
+    def reach(self) -> float | tuple[float, float]:
+        ...
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        ...
 class DmpParameters:
     """
     All that a Dmp is: what a model file holds. Fields as keywords.
@@ -926,11 +949,11 @@ class Dmp:
         """
         The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
         """
-    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Trajectory:
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, via: collections.abc.Sequence[Via] = ()) -> Trajectory:
         """
-        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite. `via`: a list of Via that it passes, in the order of their phases.
         """
-    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Trajectory:
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, via: collections.abc.Sequence[Via] = ()) -> Trajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
         """
@@ -1021,6 +1044,26 @@ class Run:
         ...
     def __init__(self, dmp: Dmp) -> None:
         ...
+    def ahead(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> RunState:
+        """
+        Where the run will be at a phase from now to 1 if nothing changes until then, via-points included; speed and velocity at the duration that is set.
+        """
+    def clear_vias(self) -> None:
+        """
+        Forgets all via-points; what is under way fades within its reach.
+        """
+    @typing.overload
+    def join(self, next: Dmp, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        """
+        Goes on with another motion from the present state: a model, or a run of one that stands where it shall begin, with its goal, duration and via-points set. Position, velocity and acceleration do not jump; what lies between the two motions fades within `reach`, a part of the phase of `next`.
+        """
+    @typing.overload
+    def join(self, next: Run, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        ...
+    def move_via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Status:
+        """
+        The via-point that was set at `phase` has moved. Returns Status.running, or Status.too_late where it lies behind.
+        """
     def pause(self) -> None:
         """
         Comes to rest on the path, through options.tempo_filter.
@@ -1037,13 +1080,23 @@ class Run:
         """
         How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
+    @typing.overload
     def start_from(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         Begins anew at position (d,) with velocity (d,) per s.
         """
+    @typing.overload
+    def start_from(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]) -> None:
+        """
+        Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
+        """
     def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
         Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        """
+    def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
+        """
+        Passes `point` (shaped as the property goal) at a phase that lies ahead, 0.01 to 0.99, and changes the motion within `reach` only, a part of the phase or one before and one behind: exactly, whatever happens to goal, duration or point until then. With `velocity` (d,) per s it has that there. Returns Status.running, or Status.too_late where less than 0.01 is left until there; raises InvalidArgument for what can be no via-point.
         """
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1080,6 +1133,11 @@ class Run:
         (d,)
         """
     @property
+    def state(self) -> RunState:
+        """
+        where the run is: phase, speed, point, velocity and goal
+        """
+    @property
     def status(self) -> Status:
         ...
     @property
@@ -1091,6 +1149,92 @@ class Run:
     def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (d,) per s
+        """
+class DmpSequence:
+    """
+    Motions one after another as one: each takes over where the one before is left, without a jump of position, velocity or acceleration. Immutable.
+    """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, models: collections.abc.Sequence[Dmp], leave: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 1.0, reach: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 0.2, via: collections.abc.Sequence[collections.abc.Sequence[Via]] = ()) -> None:
+        """
+        models: 1 to 32. leave: the phase of each at which the next one takes over, 0.01 to 1, or one for all; below 1 without coming to rest. reach: the part of the phase of each, 0.01 to 1, within which it is come onto from the one before. via: a list of Via for each model. Raises InvalidArgument, naming the part.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Trajectory:
+        """
+        The whole motion, to `goal` at its end, within `duration` s (all parts in proportion), as the rollout of a model.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Trajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, of all as demonstrated
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+    @property
+    def leave(self) -> list[float]:
+        ...
+    @property
+    def models(self) -> list[Dmp]:
+        ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d,)
+        """
+class DmpSequenceRun:
+    """
+    One run of a sequence, for one control loop.
+    """
+    def __init__(self, sequence: DmpSequence) -> None:
+        ...
+    def set_goal(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        The goal of the last motion.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished.
+        """
+    def stretch(self, factor: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        All durations times `factor`, from now on.
+        """
+    @property
+    def part(self) -> int:
+        """
+        which motion is under way, from 0
+        """
+    @property
+    def phase(self) -> float:
+        """
+        of that motion
+        """
+    @property
+    def state(self) -> RunState:
+        """
+        where the run is: point, velocity, phase and goal of the motion that is under way
+        """
+    @property
+    def time(self) -> float:
+        """
+        s since the start
         """
 class OrientationDmpParameters:
     """
@@ -1228,11 +1372,11 @@ class OrientationDmp:
         """
         The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
         """
-    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> OrientationTrajectory:
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, via: collections.abc.Sequence[Via] = ()) -> OrientationTrajectory:
         """
-        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite. `via`: a list of Via that it passes, in the order of their phases.
         """
-    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> OrientationTrajectory:
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, via: collections.abc.Sequence[Via] = ()) -> OrientationTrajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
         """
@@ -1323,6 +1467,26 @@ class OrientationRun:
         ...
     def __init__(self, dmp: OrientationDmp) -> None:
         ...
+    def ahead(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> OrientationRunState:
+        """
+        Where the run will be at a phase from now to 1 if nothing changes until then, via-points included; speed and velocity at the duration that is set.
+        """
+    def clear_vias(self) -> None:
+        """
+        Forgets all via-points; what is under way fades within its reach.
+        """
+    @typing.overload
+    def join(self, next: OrientationDmp, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        """
+        Goes on with another motion from the present state: a model, or a run of one that stands where it shall begin, with its goal, duration and via-points set. Position, velocity and acceleration do not jump; what lies between the two motions fades within `reach`, a part of the phase of `next`.
+        """
+    @typing.overload
+    def join(self, next: OrientationRun, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        ...
+    def move_via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Status:
+        """
+        The via-point that was set at `phase` has moved. Returns Status.running, or Status.too_late where it lies behind.
+        """
     def pause(self) -> None:
         """
         Comes to rest on the path, through options.tempo_filter.
@@ -1339,13 +1503,23 @@ class OrientationRun:
         """
         How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
+    @typing.overload
     def start_from(self, rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         Begins anew at rotation (3, 3) with angular velocity (3,) rad/s, world frame.
         """
+    @typing.overload
+    def start_from(self, rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]) -> None:
+        """
+        Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
+        """
     def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
         Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        """
+    def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
+        """
+        Passes `point` (shaped as the property goal) at a phase that lies ahead, 0.01 to 0.99, and changes the motion within `reach` only, a part of the phase or one before and one behind: exactly, whatever happens to goal, duration or point until then. With `velocity` (d,) per s it has that there. Returns Status.running, or Status.too_late where less than 0.01 is left until there; raises InvalidArgument for what can be no via-point.
         """
     @property
     def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1387,8 +1561,99 @@ class OrientationRun:
         (3, 3) body -> world
         """
     @property
+    def state(self) -> OrientationRunState:
+        """
+        where the run is: phase, speed, point, velocity and goal
+        """
+    @property
     def status(self) -> Status:
         ...
+    @property
+    def time(self) -> float:
+        """
+        s since the start
+        """
+class OrientationDmpSequence:
+    """
+    Motions one after another as one: each takes over where the one before is left, without a jump of position, velocity or acceleration. Immutable.
+    """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, models: collections.abc.Sequence[OrientationDmp], leave: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 1.0, reach: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 0.2, via: collections.abc.Sequence[collections.abc.Sequence[Via]] = ()) -> None:
+        """
+        models: 1 to 32. leave: the phase of each at which the next one takes over, 0.01 to 1, or one for all; below 1 without coming to rest. reach: the part of the phase of each, 0.01 to 1, within which it is come onto from the one before. via: a list of Via for each model. Raises InvalidArgument, naming the part.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> OrientationTrajectory:
+        """
+        The whole motion, to `goal` at its end, within `duration` s (all parts in proportion), as the rollout of a model.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> OrientationTrajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, of all as demonstrated
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+    @property
+    def leave(self) -> list[float]:
+        ...
+    @property
+    def models(self) -> list[OrientationDmp]:
+        ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3, 3)
+        """
+class OrientationDmpSequenceRun:
+    """
+    One run of a sequence, for one control loop.
+    """
+    def __init__(self, sequence: OrientationDmpSequence) -> None:
+        ...
+    def set_goal(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        The goal of the last motion.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished.
+        """
+    def stretch(self, factor: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        All durations times `factor`, from now on.
+        """
+    @property
+    def part(self) -> int:
+        """
+        which motion is under way, from 0
+        """
+    @property
+    def phase(self) -> float:
+        """
+        of that motion
+        """
+    @property
+    def state(self) -> OrientationRunState:
+        """
+        where the run is: point, velocity, phase and goal of the motion that is under way
+        """
     @property
     def time(self) -> float:
         """
@@ -1530,11 +1795,11 @@ class PoseDmp:
         """
         The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
         """
-    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseTrajectory:
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, via: collections.abc.Sequence[Via] = ()) -> PoseTrajectory:
         """
-        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite. `via`: a list of Via that it passes, in the order of their phases.
         """
-    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseTrajectory:
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, via: collections.abc.Sequence[Via] = ()) -> PoseTrajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
         """
@@ -1625,6 +1890,26 @@ class PoseRun:
         ...
     def __init__(self, dmp: PoseDmp) -> None:
         ...
+    def ahead(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> PoseRunState:
+        """
+        Where the run will be at a phase from now to 1 if nothing changes until then, via-points included; speed and velocity at the duration that is set.
+        """
+    def clear_vias(self) -> None:
+        """
+        Forgets all via-points; what is under way fades within its reach.
+        """
+    @typing.overload
+    def join(self, next: PoseDmp, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        """
+        Goes on with another motion from the present state: a model, or a run of one that stands where it shall begin, with its goal, duration and via-points set. Position, velocity and acceleration do not jump; what lies between the two motions fades within `reach`, a part of the phase of `next`.
+        """
+    @typing.overload
+    def join(self, next: PoseRun, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        ...
+    def move_via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Status:
+        """
+        The via-point that was set at `phase` has moved. Returns Status.running, or Status.too_late where it lies behind.
+        """
     def pause(self) -> None:
         """
         Comes to rest on the path, through options.tempo_filter.
@@ -1641,13 +1926,23 @@ class PoseRun:
         """
         How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
+    @typing.overload
     def start_from(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], twist: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         Begins anew at pose (4, 4) with twist (6,) m/s, rad/s.
         """
+    @typing.overload
+    def start_from(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], twist: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]) -> None:
+        """
+        Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
+        """
     def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
         Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        """
+    def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
+        """
+        Passes `point` (shaped as the property goal) at a phase that lies ahead, 0.01 to 0.99, and changes the motion within `reach` only, a part of the phase or one before and one behind: exactly, whatever happens to goal, duration or point until then. With `velocity` (d,) per s it has that there. Returns Status.running, or Status.too_late where less than 0.01 is left until there; raises InvalidArgument for what can be no via-point.
         """
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1694,6 +1989,11 @@ class PoseRun:
         (3, 3)
         """
     @property
+    def state(self) -> PoseRunState:
+        """
+        where the run is: phase, speed, point, velocity and goal
+        """
+    @property
     def status(self) -> Status:
         ...
     @property
@@ -1705,6 +2005,92 @@ class PoseRun:
     def twist(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class PoseDmpSequence:
+    """
+    Motions one after another as one: each takes over where the one before is left, without a jump of position, velocity or acceleration. Immutable.
+    """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, models: collections.abc.Sequence[PoseDmp], leave: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 1.0, reach: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 0.2, via: collections.abc.Sequence[collections.abc.Sequence[Via]] = ()) -> None:
+        """
+        models: 1 to 32. leave: the phase of each at which the next one takes over, 0.01 to 1, or one for all; below 1 without coming to rest. reach: the part of the phase of each, 0.01 to 1, within which it is come onto from the one before. via: a list of Via for each model. Raises InvalidArgument, naming the part.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def rollout(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseTrajectory:
+        """
+        The whole motion, to `goal` at its end, within `duration` s (all parts in proportion), as the rollout of a model.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseTrajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, of all as demonstrated
+        """
+    @property
+    def goal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4)
+        """
+    @property
+    def leave(self) -> list[float]:
+        ...
+    @property
+    def models(self) -> list[PoseDmp]:
+        ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4)
+        """
+class PoseDmpSequenceRun:
+    """
+    One run of a sequence, for one control loop.
+    """
+    def __init__(self, sequence: PoseDmpSequence) -> None:
+        ...
+    def set_goal(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        The goal of the last motion.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished.
+        """
+    def stretch(self, factor: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        All durations times `factor`, from now on.
+        """
+    @property
+    def part(self) -> int:
+        """
+        which motion is under way, from 0
+        """
+    @property
+    def phase(self) -> float:
+        """
+        of that motion
+        """
+    @property
+    def state(self) -> PoseRunState:
+        """
+        where the run is: point, velocity, phase and goal of the motion that is under way
+        """
+    @property
+    def time(self) -> float:
+        """
+        s since the start
         """
 class PoseGripperTrajectory:
     """
@@ -1936,11 +2322,11 @@ class PoseGripperDmp:
         """
         The forcing term (T, dims) at phases (T,), 0 at the start and 1 at the end.
         """
-    def rollout(self, goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseGripperTrajectory:
+    def rollout(self, goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, via: collections.abc.Sequence[Via] = ()) -> PoseGripperTrajectory:
         """
-        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite.
+        The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated one unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not stay finite. `via`: a list of Via that it passes, in the order of their phases.
         """
-    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseGripperTrajectory:
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, via: collections.abc.Sequence[Via] = ()) -> PoseGripperTrajectory:
         """
         The same at times (T,) in s, increasing from 0 or later.
         """
@@ -2031,6 +2417,26 @@ class PoseGripperRun:
         ...
     def __init__(self, dmp: PoseGripperDmp) -> None:
         ...
+    def ahead(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> PoseGripperRunState:
+        """
+        Where the run will be at a phase from now to 1 if nothing changes until then, via-points included; speed and velocity at the duration that is set.
+        """
+    def clear_vias(self) -> None:
+        """
+        Forgets all via-points; what is under way fades within its reach.
+        """
+    @typing.overload
+    def join(self, next: PoseGripperDmp, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        """
+        Goes on with another motion from the present state: a model, or a run of one that stands where it shall begin, with its goal, duration and via-points set. Position, velocity and acceleration do not jump; what lies between the two motions fades within `reach`, a part of the phase of `next`.
+        """
+    @typing.overload
+    def join(self, next: PoseGripperRun, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> None:
+        ...
+    def move_via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]]) -> Status:
+        """
+        The via-point that was set at `phase` has moved. Returns Status.running, or Status.too_late where it lies behind.
+        """
     def pause(self) -> None:
         """
         Comes to rest on the path, through options.tempo_filter.
@@ -2047,13 +2453,23 @@ class PoseGripperRun:
         """
         How far the robot lags behind: slows the phase by 1 + options.phase_stop times it.
         """
+    @typing.overload
     def start_from(self, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         Begins anew at (pose, gripper) with velocity (6 + k,): twist, gripper per s.
         """
+    @typing.overload
+    def start_from(self, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]) -> None:
+        """
+        Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
+        """
     def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
         """
         Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        """
+    def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
+        """
+        Passes `point` (shaped as the property goal) at a phase that lies ahead, 0.01 to 0.99, and changes the motion within `reach` only, a part of the phase or one before and one behind: exactly, whatever happens to goal, duration or point until then. With `velocity` (d,) per s it has that there. Returns Status.running, or Status.too_late where less than 0.01 is left until there; raises InvalidArgument for what can be no via-point.
         """
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -2110,6 +2526,11 @@ class PoseGripperRun:
         (3, 3)
         """
     @property
+    def state(self) -> PoseGripperRunState:
+        """
+        where the run is: phase, speed, point, velocity and goal
+        """
+    @property
     def status(self) -> Status:
         ...
     @property
@@ -2121,6 +2542,92 @@ class PoseGripperRun:
     def twist(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (6,) linear velocity of the origin [m/s], angular velocity [rad/s], world frame
+        """
+class PoseGripperDmpSequence:
+    """
+    Motions one after another as one: each takes over where the one before is left, without a jump of position, velocity or acceleration. Immutable.
+    """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, models: collections.abc.Sequence[PoseGripperDmp], leave: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 1.0, reach: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = 0.2, via: collections.abc.Sequence[collections.abc.Sequence[Via]] = ()) -> None:
+        """
+        models: 1 to 32. leave: the phase of each at which the next one takes over, 0.01 to 1, or one for all; below 1 without coming to rest. reach: the part of the phase of each, 0.01 to 1, within which it is come onto from the one before. via: a list of Via for each model. Raises InvalidArgument, naming the part.
+        """
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def rollout(self, goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> PoseGripperTrajectory:
+        """
+        The whole motion, to `goal` at its end, within `duration` s (all parts in proportion), as the rollout of a model.
+        """
+    def rollout_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, duration: typing.SupportsFloat | typing.SupportsIndex | None = None) -> PoseGripperTrajectory:
+        """
+        The same at times (T,) in s, increasing from 0 or later.
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, of all as demonstrated
+        """
+    @property
+    def goal(self) -> tuple:
+        """
+        a tuple (pose (4, 4), gripper (k,))
+        """
+    @property
+    def leave(self) -> list[float]:
+        ...
+    @property
+    def models(self) -> list[PoseGripperDmp]:
+        ...
+    @property
+    def start(self) -> tuple:
+        """
+        a tuple (pose (4, 4), gripper (k,))
+        """
+class PoseGripperDmpSequenceRun:
+    """
+    One run of a sequence, for one control loop.
+    """
+    def __init__(self, sequence: PoseGripperDmpSequence) -> None:
+        ...
+    def set_goal(self, goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]]) -> None:
+        """
+        The goal of the last motion.
+        """
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Moves on by dt seconds. True while the motion runs, False when it has finished.
+        """
+    def stretch(self, factor: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        All durations times `factor`, from now on.
+        """
+    @property
+    def part(self) -> int:
+        """
+        which motion is under way, from 0
+        """
+    @property
+    def phase(self) -> float:
+        """
+        of that motion
+        """
+    @property
+    def state(self) -> PoseGripperRunState:
+        """
+        where the run is: point, velocity, phase and goal of the motion that is under way
+        """
+    @property
+    def time(self) -> float:
+        """
+        s since the start
         """
 class Alignment:
     """
@@ -2931,20 +3438,32 @@ def save(model: Dmp, path: os.PathLike | str | bytes) -> None:
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
 @typing.overload
+def save(model: DmpSequence, path: os.PathLike | str | bytes) -> None:
+    ...
+@typing.overload
 def save(model: OrientationDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
+@typing.overload
+def save(model: OrientationDmpSequence, path: os.PathLike | str | bytes) -> None:
+    ...
 @typing.overload
 def save(model: PoseDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
 @typing.overload
+def save(model: PoseDmpSequence, path: os.PathLike | str | bytes) -> None:
+    ...
+@typing.overload
 def save(model: PoseGripperDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
+@typing.overload
+def save(model: PoseGripperDmpSequence, path: os.PathLike | str | bytes) -> None:
+    ...
 @typing.overload
 def spread(demonstrations: collections.abc.Sequence[Demonstration], count: typing.SupportsInt | typing.SupportsIndex = 101) -> Spread:
     """
@@ -2974,18 +3493,30 @@ def to_json(model: Dmp) -> str:
     The text of a model file.
     """
 @typing.overload
+def to_json(model: DmpSequence) -> str:
+    ...
+@typing.overload
 def to_json(model: OrientationDmp) -> str:
     """
     The text of a model file.
     """
+@typing.overload
+def to_json(model: OrientationDmpSequence) -> str:
+    ...
 @typing.overload
 def to_json(model: PoseDmp) -> str:
     """
     The text of a model file.
     """
 @typing.overload
+def to_json(model: PoseDmpSequence) -> str:
+    ...
+@typing.overload
 def to_json(model: PoseGripperDmp) -> str:
     """
     The text of a model file.
     """
+@typing.overload
+def to_json(model: PoseGripperDmpSequence) -> str:
+    ...
 __version__: str = '0.2.0'

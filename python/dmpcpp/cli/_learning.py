@@ -219,6 +219,12 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     help="End point [m] in the arm's base frame (default: as demonstrated).",
 )
 @click.option(
+    "--via",
+    multiple=True,
+    metavar="S:X,Y,Z[,QX,QY,QZ,QW]",
+    help="Pass this point [m], or pose, at S of the motion, 0.01 to 0.99; may be given several times.",
+)
+@click.option(
     "--duration",
     type=float,
     metavar="S",
@@ -247,6 +253,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
 def plan(
     model: Path,
     goal: str | None,
+    via: tuple[str, ...],
     duration: float | None,
     exact_duration: bool,
     from_joints: str | None,
@@ -267,16 +274,18 @@ def plan(
 
     refuse_file(out)
     learned, engine, around = load(model), simulation.ENGINES.get(simulator), taken_surroundings(arm)
+    end = _goal(goal, learned)
     found = planning.plan(
         learned,
         taken_arm(arm),
-        goal=_goal(goal, learned),
+        goal=end,
         duration=duration,
         start=numbers("--from-joints", from_joints) if from_joints else None,
         slow_down=not exact_duration,
         simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
         follow=arm["follow"],
         accept=names(accept),
+        via=planning.at_phases(learned, map(_via, via), end) if via else (),
     )
     planning.write(found, out)
     save_config(out / "config.toml")
@@ -312,22 +321,43 @@ def _goal(text: str | None, model: Any) -> Array | None:
     if text is None:
         return None
     import numpy as np
-    from scipy.spatial.transform import Rotation
 
-    values = numbers("--goal", text)
-    if len(values) not in (3, 7):
-        raise InvalidArgument(f"--goal: {len(values)} number(s) in '{text}', expected x,y,z or x,y,z,qx,qy,qz,qw.")
     pose = np.array(model.goal, dtype=np.float64)
     if pose.shape != (4, 4):
         raise InvalidArgument(
             f"--goal: the model's goal has shape {pose.shape}, expected a model of poses. Learn one with `dmpcpp fit`."
         )
+    place = _place("--goal", text)
+    if place.shape == (4, 4):
+        return place
+    pose[:3, 3] = place
+    return pose
+
+
+def _via(text: str) -> tuple[float, Array]:
+    """Return the phase, and the point (3,) or pose (4, 4)."""
+    phase, colon, place = text.partition(":")
+    if not colon:
+        raise InvalidArgument(f"--via: '{text}', expected S:X,Y,Z with S from 0.01 to 0.99, such as 0.5:0.4,0.1,0.3.")
+    return numbers("--via", phase, 1)[0], _place("--via", place)
+
+
+def _place(option: str, text: str) -> Array:
+    """Return a point (3,), or with a quaternion a pose (4, 4)."""
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    values = numbers(option, text)
+    if len(values) not in (3, 7):
+        raise InvalidArgument(f"{option}: {len(values)} number(s) in '{text}', expected x,y,z or x,y,z,qx,qy,qz,qw.")
+    if len(values) == 3:
+        return np.array(values)
+    length = math.hypot(*values[3:])
+    if not abs(length - 1.0) < 1e-2:
+        raise InvalidArgument(
+            f"{option}: the quaternion in '{text}' has length {length:.3f}, expected 1. Its order is x, y, z, w."
+        )
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.from_quat(values[3:]).as_matrix()
     pose[:3, 3] = values[:3]
-    if len(values) == 7:
-        length = math.hypot(*values[3:])
-        if not abs(length - 1.0) < 1e-2:
-            raise InvalidArgument(
-                f"--goal: the quaternion in '{text}' has length {length:.3f}, expected 1. Its order is x, y, z, w."
-            )
-        pose[:3, :3] = Rotation.from_quat(values[3:]).as_matrix()
     return pose

@@ -11,7 +11,7 @@ from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
 from dmpcpp.planning._clearance import ClearOfItself, LookedAt, clear_of_itself, require_free_postures
 from dmpcpp.planning._joints import Engine, Slowed, Solution, limit_factor, slowed, solve
 from dmpcpp.planning._placement import Accept, Placement
-from dmpcpp.planning._plan import JointPlan, plan, write
+from dmpcpp.planning._plan import JointPlan, at_phases, plan, write
 from dmpcpp.planning._search import place, placed
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "Solution",
     "anchor",
     "anchor_within_reach",
+    "at_phases",
     "clear_of_itself",
     "limit_factor",
     "place",

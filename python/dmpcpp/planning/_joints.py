@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
@@ -11,8 +11,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dmpcpp import simulation
-from dmpcpp._core import Arm, InverseKinematics, JointTrajectory, PoseDmp, PoseTrajectory, duration_factor, stretched
+from dmpcpp._core import (
+    Arm,
+    InverseKinematics,
+    JointTrajectory,
+    PoseDmp,
+    PoseDmpSequence,
+    PoseTrajectory,
+    Via,
+    duration_factor,
+    stretched,
+)
 from dmpcpp._typing import Array
+from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._placement import Accept
 from dmpcpp.robot import POSE, Follow, stated_duration_factor
 from dmpcpp.simulation import Simulator
@@ -67,7 +78,7 @@ class Slowed:
 
 
 def solve(
-    model: PoseDmp,
+    model: PoseDmp | PoseDmpSequence,
     arm: Arm,
     *,
     goal: ArrayLike | None = None,
@@ -78,12 +89,13 @@ def solve(
     slow_down: bool = True,
     engine: Engine | None = None,
     follow: str | Follow = POSE,
+    via: Sequence[Via] = (),
 ) -> Solution:
     """Roll a model out and find the joints for it, as slow as the limits of the arm ask for.
 
     Parameters
     ----------
-    model : PoseDmp
+    model : PoseDmp or PoseDmpSequence
         Of poses of the arm's tip in its base frame.
     arm : Arm
     goal : array_like (4, 4), optional
@@ -104,6 +116,8 @@ def solve(
         reports that as `possible`.
     follow : str or Follow
         The part of each pose that the arm follows: "pose", "position", "axis" (z) or "axis:x", ..
+    via : sequence of Via
+        Poses that the motion passes; their velocities are those of `duration`, and slow down with the motion.
 
     Raises
     ------
@@ -112,15 +126,36 @@ def solve(
         `joints.report.complete`.
     """
     wanted = model.duration if duration is None else duration
-    dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * model.options.basis_count)
-    motion = model.rollout(goal, wanted, dt)
+    dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * _kernels(model))
+    motion = _rolled_out(model, goal, wanted, dt, via)
     joints = _followed(motion, arm, start, stand, accept, follow)
     if not slow_down:
         return Solution(motion, joints, 1.0)
     slow = slowed(arm, joints, engine)
     if slow.factor > 1.0:
-        motion = model.rollout(goal, slow.factor * wanted, slow.factor * dt)
+        motion = _rolled_out(model, goal, slow.factor * wanted, slow.factor * dt, _slower(via, slow.factor))
     return Solution(motion, slow.joints, slow.factor)
+
+
+def _kernels(model: PoseDmp | PoseDmpSequence) -> int:
+    parts = model.models if isinstance(model, PoseDmpSequence) else [model]
+    return sum(part.options.basis_count for part in parts)
+
+
+def _rolled_out(
+    model: PoseDmp | PoseDmpSequence, goal: ArrayLike | None, duration: float, dt: float, via: Sequence[Via]
+) -> PoseTrajectory:
+    if not isinstance(model, PoseDmpSequence):
+        return model.rollout(goal, duration, dt, via=via)
+    if via:
+        raise InvalidArgument("via: of a sequence, expected none: its motions have their own: PoseDmpSequence(via=..).")
+    return model.rollout(goal, duration, dt)
+
+
+def _slower(vias: Sequence[Via], factor: float) -> list[Via]:
+    return [
+        Via(via.phase, via.point, None if via.velocity is None else via.velocity / factor, via.reach) for via in vias
+    ]
 
 
 def limit_factor(arm: Arm, joints: JointTrajectory) -> float:

@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from dmpcpp import export
 from dmpcpp._atomic import write_text
-from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
+from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseDmpSequence, PoseTrajectory, Via
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
@@ -40,7 +40,7 @@ from dmpcpp.robot import (
 )
 from dmpcpp.simulation import Simulator, Tolerances, inverse_kinematics_checks, path_checks
 
-__all__ = ["JointPlan", "plan", "write"]
+__all__ = ["JointPlan", "at_phases", "plan", "write"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +62,8 @@ class JointPlan(Checked):
         What is looked at for contacts, and what is left out; None where nothing is.
     follow : Follow
         The part of each pose that the arm follows.
+    via : tuple of Via
+        Poses that the motion passes.
     """
 
     arm: Arm
@@ -72,6 +74,7 @@ class JointPlan(Checked):
     accepted: tuple[str, ...] = ()
     contacts: LookedAt | None = None
     follow: Follow = POSE
+    via: tuple[Via, ...] = ()
 
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
@@ -86,13 +89,14 @@ class JointPlan(Checked):
             "contacts": self.contacts.to_dict() if self.contacts else None,
             "samples": len(self.joints.time),
             "goal": self.motion.pose[-1].tolist(),
+            "via": [{"phase": via.phase, "pose": np.asarray(via.point).tolist()} for via in self.via],
             "limits": limits_summary(self.arm),
             "assumed": list(assumptions(self.arm)),
         }
 
 
 def plan(
-    model: PoseDmp,
+    model: PoseDmp | PoseDmpSequence,
     arm: Arm,
     *,
     goal: ArrayLike | None = None,
@@ -102,12 +106,13 @@ def plan(
     simulator: Callable[..., Simulator] | None = None,
     accept: Iterable[str] = (),
     follow: str | Follow | None = None,
+    via: Sequence[Via] = (),
 ) -> JointPlan:
     """Lead a model to a goal and find the joints for it.
 
     Parameters
     ----------
-    model : PoseDmp
+    model : PoseDmp or PoseDmpSequence
         Of poses of the arm's tip in its base frame.
     arm : Arm
     goal : (4, 4), optional
@@ -127,6 +132,8 @@ def plan(
     follow : str, optional
         "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
         than six joints needs it.
+    via : sequence of Via
+        Poses (4, 4) that the motion passes, in the order of their phases; see `at_phases` for places alone.
 
     Raises
     ------
@@ -135,7 +142,7 @@ def plan(
         touch, motors that cannot hold the arm, or what `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An
         unreachable path does not raise: `ik_position_residual` or `ik_angle_residual` fails.
     """
-    if not isinstance(model, PoseDmp):
+    if not isinstance(model, PoseDmp | PoseDmpSequence):
         raise InvalidArgument(
             f"model: a {type(model).__name__}, expected a PoseDmp: an arm's tip has position and rotation."
         )
@@ -147,6 +154,9 @@ def plan(
     end = np.asarray(model.goal if goal is None else goal, dtype=np.float64)
     if end.shape == (4, 4):  # any other is refused by the rollout
         require_within_reach(end[:3, 3], arm, "goal: the end of the motion")
+    for j, passed in enumerate(via):
+        if np.shape(passed.point) == (4, 4):
+            require_within_reach(np.asarray(passed.point)[:3, 3], arm, f"via[{j}].point")
     looked_at = require_free_postures(arm, simulator) if simulator is not None else None
     clear = clear_of_itself(arm, simulator) if simulator is not None else None
     solution = solve(
@@ -158,6 +168,7 @@ def plan(
         accept=clear,
         slow_down=slow_down,
         follow=followed,
+        via=via,
     )
     joints = solution.joints
     require_holdable(arm, joints.position)
@@ -170,7 +181,29 @@ def plan(
     )
     if simulator is not None:
         checks = (*checks, *path_checks(arm, joints, simulator=simulator))
-    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted, looked_at, followed)
+    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted, looked_at, followed, tuple(via))
+
+
+def at_phases(model: PoseDmp, points: Iterable[tuple[float, ArrayLike]], goal: ArrayLike | None = None) -> list[Via]:
+    """Return via-poses at places (3,) or poses (4, 4) with their phases; at a place the motion keeps its rotation.
+
+    Parameters
+    ----------
+    model : PoseDmp
+    points : iterable of (phase, place)
+        In any order.
+    goal : array_like (4, 4), optional
+        What the motion is led to; the demonstrated one unless given.
+    """
+    vias = []
+    for phase, point in sorted(points, key=lambda one: one[0]):
+        place = np.asarray(point, dtype=np.float64)
+        if place.shape == (3,) and 0.0 <= phase <= 1.0:  # any other phase is refused by the rollout
+            pose = model.rollout_at([phase * model.duration], goal).pose[0].copy()
+            pose[:3, 3] = place
+            place = pose
+        vias.append(Via(phase, place))
+    return vias
 
 
 def _stated(arm: Arm, joints: JointTrajectory) -> Iterator[Check]:
