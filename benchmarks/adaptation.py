@@ -1,4 +1,4 @@
-"""`python -m benchmarks.adaptation [--json]`: via-points and joins, beside other packages in one run.
+"""`python -m benchmarks.adaptation [--json]`: via-points, joins and rhythm, beside other packages in one run.
 
 On curves of its own; with DMPCPP_LETTERS, an .npz of handwritten letters (one array (demonstrations, samples, 2) each),
 on these too. Exit status: 0 every goal reached, 3 one missed.
@@ -16,8 +16,20 @@ from pathlib import Path
 from typing import Any
 
 import click
+import dmpcpp
 import numpy as np
-from dmpcpp import Demonstration, Dmp, PoseDemonstration, PoseDmp, PoseRun, Run, Via, so3
+from dmpcpp import (
+    Demonstration,
+    Dmp,
+    OrientationDemonstration,
+    OrientationDmp,
+    PoseDemonstration,
+    PoseDmp,
+    PoseRun,
+    Run,
+    Via,
+    so3,
+)
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
@@ -63,6 +75,10 @@ def measure() -> Iterator[Figure]:
             yield from joins(name, motions)
     yield from via_poses()
     yield from times()
+    yield from rhythm()
+    yield from turning()
+    yield from changes()
+    yield from periods()
 
 
 def _model(path: Array) -> Dmp:
@@ -253,6 +269,135 @@ def times() -> list[Figure]:
     ]
 
 
+def _closed(phase: Array) -> Array:
+    """Return a closed curve (T, 3) of five harmonics at phases (T,)."""
+    rng = np.random.default_rng(3)
+    curve = np.zeros((len(phase), 3))
+    for h in range(1, 6):
+        cosine, sine = rng.normal(size=(2, 3)) / h
+        curve += np.cos(2 * np.pi * h * phase)[:, None] * cosine + np.sin(2 * np.pi * h * phase)[:, None] * sine
+    return curve
+
+
+def rhythm() -> list[Figure]:
+    """Learn a closed curve of 200 samples, N = 50, by both regressions: the error in cycles 3 to 5."""
+    around = np.linspace(0, 1, 201)
+    later = np.linspace(2, 5, 3001)
+    truth, size = _closed(later), float(np.linalg.norm(np.ptp(_closed(around), axis=0)))
+    found = []
+    for regression in ("ridge", "lwr"):
+        model = Dmp.fit(
+            Demonstration(around, _closed(around)),
+            motion="rhythmic",
+            basis_count=50,
+            regression=regression,
+            derivatives="interpolate",
+        )
+        error = 100 * _rms(model.rollout_at(later).position - truth) / size
+        others = {"pydmps": _pydmps_error(size)} if peers.installed()["pydmps"] and not found else {}
+        found.append(Figure(f"closed curve, N = 50, {regression}: RMSE of the diagonal", error, 1e-4, "%", others))
+    return found
+
+
+def _pydmps_error(size: float) -> float:
+    from pydmps.dmp_rhythmic import DMPs_rhythmic
+
+    dmp = DMPs_rhythmic(n_dmps=3, n_bfs=50, dt=2 * np.pi / 1000)
+    dmp.imitate_path(y_des=_closed(np.linspace(0, 1, 201)).T)
+    path = np.asarray(dmp.rollout(timesteps=5 * 1000)[0])[2000:5000]
+    lags = [np.arange(2000, 5000) / 1000 + lag for lag in np.linspace(-0.01, 0.01, 81)]
+    return 100 * min(_rms(path - _closed(phases)) for phases in lags) / size
+
+
+def turning() -> Iterator[Figure]:
+    """Orientations, N = 100: the largest error in cycles 3 to 5, about the centre and with whole turns."""
+    around = np.linspace(0, 1, 401)
+    later = np.linspace(2, 5, 1501)
+    for name, angle, turns, goal in (
+        ("0.9 rad", 0.9, 0, 1e-5),
+        ("2.7 rad", 2.7, 0, 1e-3),
+        ("one turn a cycle", 0.9, 1, 1e-5),
+        ("two turns a cycle", 0.9, 2, 1e-5),
+    ):
+        model = OrientationDmp.fit(
+            OrientationDemonstration(around, _wobble(around, angle, turns)),
+            motion="rhythmic",
+            basis_count=100,
+            derivatives="interpolate",
+        )
+        again = model.rollout_at(later).rotation
+        error = max(so3.distance(a, b) for a, b in zip(again, _wobble(later, angle, turns), strict=True))
+        yield Figure(f"rhythmic orientation, {name}: largest error", float(np.degrees(error)), goal, "deg")
+
+
+def _wobble(phases: Array, angle: float, turns: int) -> Array:
+    axis = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)
+    turn = 2 * np.pi * phases
+    vector = angle * np.c_[np.cos(turn), np.sin(turn), 0.3 * np.sin(2 * turn)] / 1.04
+    return np.array([so3.exp(v) @ so3.exp(turns * u * axis) for v, u in zip(vector, turn, strict=True)])
+
+
+def changes() -> list[Figure]:
+    """Change amplitude, centre and tempo on the way: steps of the acceleration at dt / 2 over those at dt."""
+    around = np.linspace(0, 1, 201)
+    model = Dmp.fit(Demonstration(around, _closed(around)), motion="rhythmic", basis_count=50)
+    steps = []
+    for dt in (2e-3, 1e-3, 5e-4):
+        run, jump = Run(model), 0.0
+        before = run.acceleration.copy()
+        for k in range(round(4 / dt)):
+            now = k * dt
+            if abs(now - 1) < dt / 4:
+                run.amplitude = 0.5
+            if abs(now - 2) < dt / 4:
+                run.goal = model.goal + 0.1
+            if abs(now - 3) < dt / 4:
+                run.duration = 0.5
+            run.step(dt)
+            jump = max(jump, float(np.linalg.norm(run.acceleration - before)))
+            before = run.acceleration.copy()
+        steps.append(jump)
+    return [
+        Figure(
+            "rhythm changed on the way: steps of the acceleration, halved",
+            max(steps[1] / steps[0], steps[2] / steps[1]),
+            0.55,
+            "1",
+        )
+    ]
+
+
+def periods() -> Iterator[Figure]:
+    """Find the period of 20 seeded recordings, with noise, with a start that is no part of them; and of a person."""
+    for name, noise, transient, goal in (("1 % noise", 0.01, 0.0, 1e-4), ("1 % noise, transient", 0.01, 0.5, 5e-4)):
+        errors = []
+        for seed in range(20):
+            rng = np.random.default_rng(seed)
+            period = rng.uniform(0.7, 1.6)
+            grid = np.linspace(0, 8 * period + rng.uniform(0, 1), 1500)
+            curve = _closed(grid / period)
+            size = float(np.linalg.norm(np.ptp(curve, axis=0)))
+            curve += transient * size * np.maximum(1 - grid / 0.6, 0)[:, None] * [1, -1, 0.5]
+            curve += noise * size / np.sqrt(3) * rng.normal(size=curve.shape)
+            errors.append(abs(dmpcpp.find_cycle(Demonstration(grid, curve)).period / period - 1))
+        yield Figure(f"period, {name}: median error", float(np.median(errors)), goal, "1")
+    folder = Path(os.environ.get("DMPCPP_RECORDINGS", "")) / "c3d_ktk" / "sample_propulsion.c3d"
+    if folder.is_file():
+        yield from propulsion(folder)
+
+
+def propulsion(path: Path) -> Iterator[Figure]:
+    """Leave as little as possible of a person who propels a wheelchair: what one cycle does not explain."""
+    from dmpcpp import recordings
+
+    markers = recordings.markers(path)
+    for name in ("GloveR1", "GloveL1"):
+        seen = markers.chosen([name])
+        kept = np.isfinite(seen.position[:, 0]).all(axis=1)
+        found = dmpcpp.find_cycle(Demonstration(seen.time[kept], seen.position[kept, 0]))
+        yield Figure(f"wheelchair, {name}: left by one cycle, of the RMS", 100 * found.unexplained, 5.0, "%")
+
+
 def _risen(model: PoseDmp, pose: Array) -> PoseRun:
     run = PoseRun(model)
     run.via(0.6, pose)
@@ -287,7 +432,7 @@ def _rms(away: Array) -> float:
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print the figures as JSON instead of the table.")
 def main(as_json: bool) -> None:
-    """Measure via-points and joins, with the goal of every figure."""
+    """Measure via-points, joins and rhythmic motions, with the goal of every figure."""
     measured = list(measure())
     if as_json:
         click.echo(json.dumps({"figures": [figure.to_dict() for figure in measured]}, indent=2))

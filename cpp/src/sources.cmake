@@ -13,7 +13,10 @@ set(DMP_core_SOURCES
   primitive/automatic_fit.cpp
   primitive/average.cpp
   primitive/basis.cpp
+  primitive/cycle.cpp
+  primitive/cycle_phase.cpp
   primitive/dmp.cpp
+  primitive/find_cycle.cpp
   primitive/fit_report.cpp
   primitive/forcing.cpp
   primitive/forcing_fit.cpp

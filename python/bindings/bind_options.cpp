@@ -45,6 +45,8 @@ void bind_enums(py::module_& m) {
   bind_enum<Scaling>(m, "Scaling",
                      "How the forcing term follows when start and goal change; automatic: advance.");
   bind_enum<OrientationForm>(m, "OrientationForm", "The equation of motion of orientations.");
+  bind_enum<Motion>(m, "Motion",
+                    "From a start to a goal, or round and round about a centre, which is the goal then.");
   bind_enum<LogBranch>(m, "LogBranch", "Log(Rg R^T) followed through pi, or the shortest rotation.");
   bind_enum<Derivatives>(m, "Derivatives", "Velocities and accelerations of a demonstration.");
   bind_enum<Start>(m, "Start", "What a rollout starts with.");
@@ -122,6 +124,10 @@ void bind_options(py::module_& m) {
   enum_attribute(options, "log_branch", &DmpOptions::log_branch, "a LogBranch or its name");
   enum_attribute(options, "derivatives", &DmpOptions::derivatives, "a Derivatives or its name");
   enum_attribute(options, "start", &DmpOptions::start, "a Start or its name");
+  enum_attribute(
+      options, "motion", &DmpOptions::motion,
+      "a Motion or its name; rhythmic: a demonstration is one cycle, its last sample the first one again "
+      "(find_cycle), its duration the period");
   enum_attribute(options, "integrator", &DmpOptions::integrator, "an Integrator or its name");
   def_fields(options);
 }

@@ -171,6 +171,14 @@ void bind_run(py::module_& m) {
           "s, of the whole motion from now on; the path stays the same")
       .def_property_readonly("status", &Run::status)
       .def_property(
+          "amplitude", &Run::amplitude,
+          [](Run& r, double amplitude) {
+            require_accepted(r.set_amplitude(amplitude), "amplitude: expected a finite factor, 0 or more.");
+          },
+          "what the forcing term is multiplied by, 1 at first: of a rhythmic motion what it goes away from "
+          "its "
+          "centre; approached as a goal is")
+      .def_property(
           "goal", [](const Run& r) { return show_field(typename Space::Point(r.goal())); },
           [](Run& r, const Given& goal) {
             require_accepted(r.set_goal(InPython<Space>::to_point(goal, "goal")),

@@ -29,6 +29,7 @@ def learn(
     *,
     noise: Noise | None = None,
     smooth: bool = True,
+    rhythmic: bool = False,
 ) -> PoseDmp:
     """Learn a demonstration as `PoseDmp.fit` does by default.
 
@@ -44,13 +45,18 @@ def learn(
         Has no effect, which a warning says: noise is found in the demonstration itself. Goes in 0.3.
     smooth : bool
         Smooth if noise is detected.
+    rhythmic : bool
+        The demonstration is one cycle of a motion that repeats (`motion.one_cycle`).
     """
     if noise is not None:
         warnings.warn(
             "learn: noise has no effect, it is found in the demonstration itself.", DeprecationWarning, stacklevel=2
         )
     return PoseDmp.fit(
-        demonstration, basis_count=basis_count or 0, derivatives="automatic" if smooth else "interpolate"
+        demonstration,
+        basis_count=basis_count or 0,
+        derivatives="automatic" if smooth else "interpolate",
+        motion="rhythmic" if rhythmic else "discrete",
     )
 
 

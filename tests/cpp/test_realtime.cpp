@@ -186,7 +186,7 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
       {"mailbox", "post take"},
       {"orientation_dmp", "angular_acceleration angular_velocity quaternion rotation"},
       {"phase",
-       "advance advance before_end duration ended increment past_end pause paused reset resume s "
+       "advance advance before_end duration end ended increment past_end pause paused reset resume s "
        "set_duration "
        "set_tracking_error speed speed_rate time x"},
       {"pose_dmp", "acceleration pose position quaternion rotation twist"},
@@ -194,8 +194,9 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
       {"so3", "distance exp exp_quaternion hat left_jacobian left_jacobian_inverse lifted_log log log vee"},
       {"sequence", "current current output part set_goal state step stretch time"},
       {"stepper",
-       "ahead clear_vias duration goal join move_via output pause paused phase reset resume set_duration "
-       "set_goal set_tracking_error start_from start_from state status step step time via via"}};
+       "ahead amplitude clear_vias duration goal join move_via output pause paused phase reset resume "
+       "set_amplitude set_duration set_goal set_tracking_error start_from start_from state status step step "
+       "time via via"}};
   CHECK(found.size() == expected.size());
   for (const auto& [header, names] : expected) {
     CAPTURE(header);

@@ -299,6 +299,13 @@ def moved_via(run: Any, point: Any) -> Any:
 
 for kind in MODELS:
     ENTRIES |= adaptation_entries(kind)
+ROUND = np.linspace(0, 4, 200)
+ENTRIES["find_cycle"] = (
+    lambda **values: dmpcpp.find_cycle(
+        dmpcpp.Demonstration(ROUND, np.c_[np.cos(6 * ROUND), np.sin(6 * ROUND)]), **values
+    ),
+    {"minimum_period": 0.5, "harmonics": 4},
+)
 ENTRIES["Via.__init__"] = (
     lambda **values: MODELS["PoseDmp"].rollout(dt=0.1, via=[dmpcpp.Via(**values)]),
     {"phase": 0.5, "point": MODELS["PoseDmp"].start, "velocity": np.ones(6), "reach": 0.2},
@@ -309,6 +316,7 @@ RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "duration": lambda run, value: setattr(run, "duration", value),
     "set_tracking_error": lambda run, value: run.set_tracking_error(value),
     "goal": lambda run, value: setattr(run, "goal", value),
+    "amplitude": lambda run, value: setattr(run, "amplitude", value),
     "start_from place": lambda run, value: run.start_from(value, velocity_of(run)),
     "start_from velocity": lambda run, value: run.start_from(place_of(run), value),
 }

@@ -15,10 +15,12 @@ namespace dmp {
 /// have
 ///   one width in time, so only the kernels around s are not zero (below 1e-17 they count as zero), and they
 ///   are all found with one exponential: psi_{k+1} / psi_k is a table times a power.
+/// * Periodic: the same round a cycle of N spacings, s_i = i / N, nearest on the circle, and no gate (x = 1).
 /// * Source: psi_i = exp(-h_i (x - c_i)^2), h_i = N^1.5 / (alpha_x c_i), Gaussians in x (DeWolf's rule).
 class DMP_EXPORT GaussianBasis {
  public:
-  /// Kernels first .. first + count - 1; the others are zero. They are exp(exponent) times what is given.
+  /// Kernels first .. first + count - 1 (of periodic ones modulo N); the others are zero. They are
+  /// exp(exponent) times what is given.
   struct Window {
     int first;
     int count;
@@ -30,8 +32,11 @@ class DMP_EXPORT GaussianBasis {
   /// cross at exp(-overlap / 4).
   static GaussianBasis equal_in_time(int count, double alpha_x, double overlap);
   static GaussianBasis source(int count, double alpha_x);
+  /// Throws InvalidArgument unless count is 4 to 100000.
+  static GaussianBasis periodic(int count, double overlap);
 
   int count() const noexcept { return count_; }
+  bool is_periodic() const noexcept { return round_; }
   double alpha_x() const noexcept { return alpha_x_; }
   /// (N) centers c_i in x.
   Eigen::VectorXd centers() const;
@@ -59,6 +64,7 @@ class DMP_EXPORT GaussianBasis {
 
   GaussianBasis(int count, double alpha_x);
   Place place(double s) const noexcept;
+  double spacings(double s) const noexcept;
   PhasePair pair(double s, double next, int middle) const noexcept;
   Window equal_in_time_window(double s, double* psi) const noexcept;
   Window source_window(double s, double* psi) const noexcept;
@@ -67,6 +73,7 @@ class DMP_EXPORT GaussianBasis {
   double alpha_x_;
   double overlap_ = 0.0;  // 0: the source's kernels
   int reach_ = 0;         // kernels to either side that count
+  bool round_ = false;    // periodic
   int capacity_ = 0;
   std::vector<double> table_;   // exp(-overlap k^2), k = 0 .. reach
   std::vector<double> center_;  // the source's c_i

@@ -38,8 +38,15 @@ class DMP_EXPORT ForcingTerm {
                              double* f_next) const noexcept;
   void evaluate_window(double s, double* psi, double* f) const noexcept;
 
+  /// The row of a kernel, of periodic ones with their neighbours round the cycle on both sides.
+  const double* row(int kernel) const noexcept {
+    return basis_.round_ ? round_.data() + (kernel + basis_.reach_) * round_.cols()
+                         : weights_.data() + kernel * weights_.cols();
+  }
+
   GaussianBasis basis_;
   RowMatrix weights_;
+  RowMatrix round_;  // (N + 1 + 2 reach x dims) of periodic kernels: the last and the first ones again
 };
 
 /// What a forcing term should be along one demonstration.

@@ -48,6 +48,9 @@ enum class Integrator { exact, semi_implicit_euler };
 /// where the samples show that they carry any (NoiseEstimate).
 enum class Derivatives { interpolate, smooth, gradient, automatic };
 
+/// From a start to a goal, or round and round about a centre, which is the goal then.
+enum class Motion { discrete, rhythmic };
+
 /// Log(Rg R^T): followed through pi and 2 pi, or the shortest rotation at every moment.
 enum class LogBranch { lifted, principal };
 
@@ -101,6 +104,11 @@ inline const Names<Integrator>& names_of(Integrator) {
   return names;
 }
 
+inline const Names<Motion>& names_of(Motion) {
+  static const Names<Motion> names{{Motion::discrete, "discrete"}, {Motion::rhythmic, "rhythmic"}};
+  return names;
+}
+
 /// Every choice there is in a Dmp, OrientationDmp or PoseDmp. What is automatic, `fit` finds in the
 /// demonstrations, and the options of the model say what it was.
 struct DmpOptions {
@@ -129,6 +137,9 @@ struct DmpOptions {
   double tempo_filter =
       0.1;  ///< s, time constant with which a change of tempo (duration, pause, phase stop) is approached
   double phase_stop = 0.0;  ///< k: a tracking error e slows the phase to sd = 1 / (tau (1 + k e))
+  /// rhythmic: a demonstration is one cycle, its last sample the first one again (find_cycle), its duration
+  /// the period. Without gate and scaling; orientations in the turning form, about what turns on evenly.
+  Motion motion = Motion::discrete;
 
   /// Throws InvalidArgument, naming the field, for one outside its range.
   DMP_EXPORT void validate() const;
@@ -141,7 +152,8 @@ struct DmpOptions {
   /// docs/formulation.md.
   DMP_EXPORT static DmpOptions source();
 
-  /// Every field once, by its name in a model file: files, comparison and checks go by this list.
+  /// Every field but `motion` once, by its name in a model file: files, comparison and checks go by this
+  /// list.
   static constexpr auto fields() {
     using O = DmpOptions;
     return std::make_tuple(

@@ -44,12 +44,14 @@ class DMP_EXPORT Phase {
   void resume() noexcept DMP_REALTIME;
   bool paused() const noexcept DMP_REALTIME { return paused_; }
 
+  /// Where the motion ends: 1, or, of a rhythmic one, nowhere (infinite).
+  double end() const noexcept DMP_REALTIME { return end_; }
   /// Whether s has come to the end of the motion, 1 but for rounding; and whether it lies beyond it.
-  bool ended() const noexcept DMP_REALTIME { return s_ >= 1.0 - kRounding; }
-  bool past_end() const noexcept DMP_REALTIME { return s_ > 1.0 + kRounding; }
+  bool ended() const noexcept DMP_REALTIME { return s_ >= end_ - kRounding; }
+  bool past_end() const noexcept DMP_REALTIME { return s_ > end_ + kRounding; }
   /// How much of a way on from here lies before the end; all of it where it does not lead across the end.
   double before_end(double way) const noexcept DMP_REALTIME {
-    return !ended() && s_ + way > 1.0 + kRounding ? 1.0 - s_ : way;
+    return !ended() && s_ + way > end_ + kRounding ? end_ - s_ : way;
   }
 
   /// How far s will go in dt seconds.
@@ -67,6 +69,7 @@ class DMP_EXPORT Phase {
   void retarget() noexcept;
   bool settled() const noexcept { return speed_ == target_speed_ && speed_rate_ == 0.0; }
 
+  double end_ = 1.0;  // infinite of a rhythmic motion
   double alpha_x_;
   double filter_;
   double stop_gain_;

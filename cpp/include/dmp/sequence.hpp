@@ -23,7 +23,9 @@ struct SequencePart {
       : model(motion), leave(leaves_at), reach(comes_within), vias(past) {}
 
   Primitive<Space> model;
-  double leave;  ///< its phase at which the next one takes over, 0.01 to 1; below 1 without coming to rest
+  /// Its phase at which the next one takes over, 0.01 to 1; below 1 without coming to rest. Of a rhythmic
+  /// motion cycles, to 1e5.
+  double leave;
   double reach;  ///< 0.01 to 1, the part of its phase within which it is come onto from the one before
   std::vector<Via<Space>> vias;  ///< 16 at most
 };

@@ -39,6 +39,10 @@ class DMP_EXPORT Stepper {
   /// The duration (s) of the whole motion from now on; the path stays the same. Before the first step at
   /// once, later through DmpOptions::tempo_filter.
   Status set_duration(double duration) noexcept DMP_REALTIME;
+  /// Multiplies the forcing term (0 or more, 1 at first): what a rhythmic motion goes away from its centre.
+  /// Before the first step at once, later approached through DmpOptions::goal_filter.
+  Status set_amplitude(double amplitude) noexcept DMP_REALTIME;
+  double amplitude() const noexcept DMP_REALTIME;  ///< the one set last
   /// How far the robot lags behind (0 or more): slows the phase by 1 + DmpOptions::phase_stop times it.
   Status set_tracking_error(double error) noexcept DMP_REALTIME;
   /// Comes to rest on the path, and goes on from there; both through DmpOptions::tempo_filter.

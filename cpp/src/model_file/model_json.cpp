@@ -39,7 +39,7 @@ constexpr const char* kind_of<PoseGripperDmpSequence> = "pose_gripper_dmp_sequen
 
 // A model has the oldest version that can hold it, so that older libraries read it.
 constexpr int kFieldsThatMayBeEmpty = 2;
-constexpr int kSequences = 3;
+constexpr int kSequences = 3;  // and rhythmic motions
 constexpr int kNewest = kSequences;
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
@@ -50,7 +50,10 @@ template <class Space>
 Json to_json(const Primitive<Space>& model) {
   const auto& parameters = model.parameters();
   Json options = Json::object();
-  visit_options(JsonWriter(options), parameters.options);
+  const JsonWriter write(options);
+  visit_options(write, parameters.options);
+  const Motion motion = parameters.options.motion;
+  if (motion == Motion::rhythmic) write("motion", motion, names_of(motion));
   Json json{{"format", "dmpcpp"},
             {"version", 1},
             {"kind", kind_of<Primitive<Space>>},
@@ -61,6 +64,7 @@ Json to_json(const Primitive<Space>& model) {
     json["version"] = kFieldsThatMayBeEmpty;
     json[name] = to_rows(table);
   });
+  if (motion == Motion::rhythmic) json["version"] = kSequences;
   return json;
 }
 
@@ -116,6 +120,9 @@ template <class Space>
 Primitive<Space> read(const Json& json, Primitive<Space>*) {
   typename Space::Parameters parameters;
   visit_options(JsonReader(member(json, "options", "model"), "options", "options."), parameters.options);
+  Motion& motion = parameters.options.motion;
+  if (const Json& options = json["options"]; options.contains("motion"))
+    JsonReader(options, "options", "options.")("motion", motion, names_of(motion));
   if (parameters.options.basis_count == 0)
     throw InvalidArgument("options.basis_count: 0, expected the number of kernels.");
   const JsonReader reader(json, "model", "");

@@ -32,6 +32,7 @@ class Adaptation {
   Adaptation(const Runner<Space>& like, const Point& point, Eigen::Index axes, int room)
       : scout_(like),
         path_(axes, room),
+        end_(like.phase().end()),
         room_(room),
         vias_(static_cast<std::size_t>(room), Place{point, Eigen::VectorXd::Zero(axes)}),
         aims_(vias_.size()),
@@ -52,7 +53,8 @@ class Adaptation {
   template <class PointArgument>
   Status set(double now, double phase, const PointArgument& point, const double* velocity,
              const Reach& reach) noexcept {
-    if (!(phase >= kLeastReach && phase <= 1.0 - kLeastReach) || !is_reach(reach))
+    if (!(phase >= kLeastReach && phase <= end_ - kLeastReach && phase <= now + kFarthest) ||
+        !is_reach(reach))
       return Status::invalid_input;
     if (phase - now < kLeastReach - kSame) return Status::too_late;
     int place = find(phase);
@@ -129,7 +131,7 @@ class Adaptation {
       look_at(k, runner.phase(), near);
       near = values_.row(k).data();
       aims_[static_cast<std::size_t>(k)] = {
-          at(k).phase, at(k).rise, std::min(at(k).reach.fall, 1.0 - at(k).phase), at(k).with_velocity};
+          at(k).phase, at(k).rise, std::min(at(k).reach.fall, end_ - at(k).phase), at(k).with_velocity};
     }
     path_.pass(now, aims_, first, count_ - first, values_, rates_, std::max(release_, now + kLeastReach));
   }
@@ -150,7 +152,7 @@ class Adaptation {
   const CouplingState<Space>& ahead(const Runner<Space>& runner, double phase) noexcept {
     if (stale_) aim(runner);
     const double now = runner.phase().s();
-    const double s = phase > now ? std::min(phase, std::max(now, 1.0)) : now;
+    const double s = phase > now ? std::min({phase, std::max(now, end_), now + kFarthest}) : now;
     scout_.shadow(runner);
     scout_.look(s);
     if (path_.at(s, state_.data()) && state_.allFinite())
@@ -170,6 +172,7 @@ class Adaptation {
 
  private:
   static constexpr double kSame = 1e-9;
+  static constexpr double kFarthest = 10.0;  // cycles ahead: bounds the work
 
   struct Place {
     Point point;
@@ -234,6 +237,7 @@ class Adaptation {
 
   Runner<Space> scout_;
   OffsetPath path_;
+  double end_;
   int room_;
   int count_ = 0;
   std::vector<Place> vias_;  // in the order of their phases

@@ -56,6 +56,18 @@ GaussianBasis GaussianBasis::equal_in_time(int count, double alpha_x, double ove
   return basis;
 }
 
+GaussianBasis GaussianBasis::periodic(int count, double overlap) {
+  if (count < 4)
+    throw InvalidArgument("basis_count: " + std::to_string(count) +
+                          ", expected 4 or more kernels round a cycle.");
+  GaussianBasis basis = equal_in_time(count, 1.0, overlap);
+  basis.round_ = true;
+  basis.alpha_x_ = 0.0;
+  basis.reach_ = std::min(basis.reach_, (count - 1) / 2);
+  basis.capacity_ = 2 * basis.reach_ + 1;
+  return basis;
+}
+
 GaussianBasis GaussianBasis::source(int count, double alpha_x) {
   GaussianBasis basis(count, alpha_x);
   basis.capacity_ = count;
@@ -69,13 +81,13 @@ GaussianBasis GaussianBasis::source(int count, double alpha_x) {
 }
 
 Eigen::VectorXd GaussianBasis::centers() const {
-  if (count_ == 1) return Eigen::VectorXd::Ones(1);
+  if (count_ == 1 || round_) return Eigen::VectorXd::Ones(count_);
   return (-alpha_x_ * Eigen::VectorXd::LinSpaced(count_, 0.0, 1.0)).array().exp();
 }
 
 GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi) const noexcept {
   const Place at = place(s);
-  const double offset = s * (count_ - 1) - at.middle;
+  const double offset = spacings(s) - at.middle;
   const double up = std::exp(std::clamp(2.0 * overlap_ * offset, kSmallestExponent, -kSmallestExponent));
   double* const middle = psi + at.below;
   *middle = 1.0;
@@ -132,8 +144,8 @@ RowMatrix GaussianBasis::activations(const Eigen::VectorXd& s, bool normalised) 
   std::vector<double> psi(static_cast<std::size_t>(capacity_));
   for (Eigen::Index k = 0; k < s.size(); ++k) {
     const Window window = normalised ? proportional(s[k], psi.data()) : activations(s[k], psi.data());
-    table.row(k).segment(window.first, window.count) =
-        Eigen::Map<Eigen::RowVectorXd>(psi.data(), window.count);
+    for (int j = 0; j < window.count; ++j)
+      table(k, (window.first + j + count_) % count_) = psi[static_cast<std::size_t>(j)];
     if (normalised) table.row(k) /= table.row(k).sum();
   }
   return table;

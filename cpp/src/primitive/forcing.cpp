@@ -39,6 +39,11 @@ ForcingTerm::ForcingTerm(const GaussianBasis& basis, const RowMatrix& weights)
                           " kernels.");
   if (weights.cols() == 0 || !weights.allFinite())
     throw InvalidArgument("weights: empty or not finite, expected finite numbers (N x dims).");
+  if (!basis.round_) return;
+  const Index n = weights.rows();
+  const Index reach = basis.reach_;
+  round_.resize(n + 1 + 2 * reach, weights.cols());
+  for (Index k = 0; k < round_.rows(); ++k) round_.row(k) = weights.row((k + n - reach) % n);
 }
 
 /// The kernels equal in time, generated while they are summed up, for two phases side by side that are
@@ -52,7 +57,7 @@ void ForcingTerm::evaluate_side_by_side(const GaussianBasis::Place& at, double s
   const Pair up = pair.ratio;
   const Pair down = up.inverse();
   const double* const table = basis_.table_.data();
-  const double* const middle = weights_.data() + at.middle * Axes;
+  const double* const middle = row(at.middle);
   std::array<Pair, Axes> sum;
   for (int d = 0; d < Axes; ++d) sum[d] = Pair::Constant(middle[d]);
   Pair total = Pair::Ones();
@@ -124,8 +129,7 @@ void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept { ev
 
 void ForcingTerm::evaluate_window(double s, double* psi, double* f) const noexcept {
   const GaussianBasis::Window window = basis_.proportional(s, psi);
-  weighted_mean(psi, window.count, weights_.data() + window.first * dimension(), dimension(), basis_.gate(s),
-                f);
+  weighted_mean(psi, window.count, row(window.first), dimension(), basis_.gate(s), f);
 }
 
 RowMatrix ForcingTerm::evaluate(const VectorXd& s) const {
@@ -152,6 +156,7 @@ double regression_condition(const DmpOptions& options) {
   DmpOptions looked_at = options;
   looked_at.basis_count = std::min(options.basis_count > 0 ? options.basis_count : kEnough, kEnough);
   const GaussianBasis basis = detail::basis_of(looked_at);
+  if (basis.is_periodic()) return detail::round_condition(basis, options.ridge);
   const Index samples = 10 * basis.count() + 1;
   const ForcingTarget even{VectorXd::LinSpaced(samples, 0.0, 1.0), RowMatrix::Zero(samples, 1),
                            VectorXd::Ones(1)};

@@ -19,12 +19,17 @@ class ForcingFit {
   RowMatrix weights(const std::vector<ForcingTarget>& targets);
 
  private:
+  RowMatrix round(const std::vector<ForcingTarget>& targets) const;
   RowMatrix solve(NormalEquations& equations, const std::vector<ForcingTarget>& targets,
                   Eigen::Index first) const;
 
+  GaussianBasis basis_;
   DmpOptions options_;
   NormalEquations together_;  // all axes
   NormalEquations alone_;     // one, where scales differ
 };
+
+/// Largest over smallest eigenvalue of the Gram matrix of periodic kernels with the ridge, for even samples.
+double round_condition(const GaussianBasis& basis, double ridge);
 
 }  // namespace dmp::detail

@@ -28,6 +28,8 @@ void require_displacement(const VectorXd& displacement, const VectorXd& amplitud
 }  // namespace
 
 GaussianBasis basis_of(const DmpOptions& options) {
+  if (options.motion == Motion::rhythmic)
+    return GaussianBasis::periodic(options.basis_count, *options.overlap);
   if (options.kernels == Kernels::source) return GaussianBasis::source(options.basis_count, options.alpha_x);
   return GaussianBasis::equal_in_time(options.basis_count, options.alpha_x, *options.overlap);
 }

@@ -5,6 +5,7 @@
 #include <dmp/options.hpp>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <utility>
 
 namespace dmp::detail {
@@ -16,6 +17,11 @@ GaussianBasis basis_of(const DmpOptions& resolved);
 /// Where a demonstration is sampled for the fit: at its samples, or, where they are few for the kernels, at
 /// ten points a kernel. `time` (T) s from 0.
 Eigen::VectorXd fit_times(const Eigen::VectorXd& time, const DmpOptions& options);
+
+/// How many samples of a cycle are looked at: its own, or ten a kernel.
+inline Eigen::Index cycle_samples(Eigen::Index size, const DmpOptions& options) {
+  return std::max<Eigen::Index>(10 * static_cast<Eigen::Index>(options.basis_count), size - 1);
+}
 
 /// Rates of the rows of y by second-order differences: central inside, one-sided at the ends; any grid.
 RowMatrix gradient(const Eigen::VectorXd& t, const RowMatrix& y);

@@ -32,6 +32,26 @@ void require_at_most(double value, double most, const char* name) {
                           number(most) + ".");
 }
 
+/// What a rhythmic motion has no choice in.
+DmpOptions without_ends(const DmpOptions& options) {
+  DmpOptions result = options;
+  const auto refuse = [](const char* name, const char* expected) {
+    throw InvalidArgument(std::string("options.") + name +
+                          ": a rhythmic motion has neither start nor goal, expected " + expected + ".");
+  };
+  if (options.scaling != Scaling::none && options.scaling != Scaling::advance &&
+      options.scaling != Scaling::automatic)
+    refuse("scaling", "none");
+  if (options.kernels != Kernels::equal_in_time) refuse("kernels", "equal_in_time");
+  if (options.log_branch != LogBranch::lifted) refuse("log_branch", "lifted");
+  if (options.derivatives == Derivatives::gradient) refuse("derivatives", "automatic, interpolate or smooth");
+  if (options.orientation_form != OrientationForm::automatic &&
+      options.orientation_form != OrientationForm::turning)
+    refuse("orientation_form", "turning");
+  result.scaling = Scaling::none;
+  return result;
+}
+
 /// Throws InvalidArgument for an enumerator outside its enumeration; lets all else pass.
 struct EnumeratorCheck {
   template <class Value>
@@ -54,8 +74,8 @@ void require_whole(int value, int most, const char* name, const char* of) {
 }  // namespace
 
 bool operator==(const DmpOptions& a, const DmpOptions& b) noexcept {
-  return std::apply([&](const auto&... field) { return ((a.*field.second == b.*field.second) && ...); },
-                    DmpOptions::fields());
+  const auto same = [&](const auto&... field) { return ((a.*field.second == b.*field.second) && ...); };
+  return a.motion == b.motion && std::apply(same, DmpOptions::fields());
 }
 
 void DmpOptions::validate() const { resolved(); }
@@ -65,8 +85,9 @@ bool DmpOptions::automatic() const noexcept {
 }
 
 DmpOptions DmpOptions::resolved() const {
-  DmpOptions result = *this;
   detail::visit_options(EnumeratorCheck{}, *this);
+  EnumeratorCheck{}("motion", motion, names_of(motion));
+  DmpOptions result = motion == Motion::rhythmic ? without_ends(*this) : *this;
   if (basis_count != 0) require_whole(basis_count, 100000, "basis_count", " kernels");
   require_whole(passes, 10000, "passes", "");
   const bool multiplies =

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "motion/continuous_quaternions.hpp"
+#include "primitive/cycle.hpp"
+#include "primitive/learning.hpp"
 #include "primitive/space.hpp"
 #include "primitive/turning_reference.hpp"
 
@@ -60,10 +62,23 @@ Decision decide_automatically(const DmpOptions& options, const Demonstrations<Ro
   return decision;
 }
 
+/// About the rotation that a rhythmic motion goes round: of its first demonstration.
+Decision decide_round(DmpOptions options, const Demonstrations<RotationSpace>& together, bool may_turn) {
+  if (!may_turn)
+    throw InvalidArgument(
+        "options.motion: rhythmic, expected discrete for motions of more than one rotation.");
+  const OrientationDemonstration& cycle = *together.front();
+  require_closed(cycle);
+  options.orientation_form = OrientationForm::turning;
+  const OrientationTrajectory round = round_of(cycle, cycle_samples(cycle.size(), options));
+  return {options, TurningReference::round(round.rotation).coefficients()};
+}
+
 }  // namespace
 
 Decision RotationGeometry::decide(const DmpOptions& options, const Demonstrations<RotationSpace>& together,
                                   bool may_turn) {
+  if (options.motion == Motion::rhythmic) return decide_round(options, together, may_turn);
   if (options.orientation_form == OrientationForm::automatic)
     return decide_automatically(options, together, may_turn);
   if (options.orientation_form != OrientationForm::turning) return {options, {}};

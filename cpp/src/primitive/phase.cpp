@@ -3,6 +3,7 @@
 #include <dmp/phase.hpp>
 
 #include <cmath>
+#include <limits>
 
 #include "base/text.hpp"
 
@@ -32,7 +33,9 @@ Phase::Phase(double duration, double alpha_x, double filter, double stop_gain)
 }
 
 Phase::Phase(double duration, const DmpOptions& options)
-    : Phase(duration, options.alpha_x, options.tempo_filter, options.phase_stop) {}
+    : Phase(duration, options.alpha_x, options.tempo_filter, options.phase_stop) {
+  if (options.motion == Motion::rhythmic) end_ = std::numeric_limits<double>::infinity();
+}
 
 double Phase::x() const noexcept { return std::exp(-alpha_x_ * s_); }
 

@@ -233,6 +233,16 @@ Status Stepper<Space>::set_duration(double duration) noexcept {
   return status;
 }
 template <class Space>
+Status Stepper<Space>::set_amplitude(double amplitude) noexcept {
+  const Status status = state_->run.runner.set_amplitude(amplitude);
+  state_->run.adaptation.changed(phase());
+  return status;
+}
+template <class Space>
+double Stepper<Space>::amplitude() const noexcept {
+  return state_->run.runner.amplitude();
+}
+template <class Space>
 Status Stepper<Space>::set_tracking_error(double error) noexcept {
   return state_->run.runner.set_tracking_error(error);
 }

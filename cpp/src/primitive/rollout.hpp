@@ -64,17 +64,19 @@ void step_through(Runner& runner, const Timetable& timetable, Record record) {
 
 /// Throws InvalidArgument, naming it, unless vias[j] can be passed.
 template <class Space>
-void require_via(const std::vector<Via<Space>>& vias, std::size_t j, const typename Space::Point& like,
-                 Eigen::Index axes) {
+void require_via(const std::vector<Via<Space>>& vias, std::size_t j, const Primitive<Space>& model) {
+  constexpr double kMostCycles = 10.0;
+  const double end = model.options().motion == Motion::rhythmic ? kMostCycles : 1.0 - kLeastReach;
   const Via<Space>& via = vias[j];
   const std::string name = indexed("via", static_cast<long>(j));
   const double least = j == 0 ? kLeastReach : vias[j - 1].phase + kLeastReach;
-  if (!(via.phase >= least - 1e-9 && via.phase <= 1.0 - kLeastReach))
+  if (!(via.phase >= least - 1e-9 && via.phase <= end))
     throw InvalidArgument(name + ".phase: " + number(via.phase) + ", expected " + number(least) + " to " +
-                          number(1.0 - kLeastReach) +
+                          number(end) +
                           ": via-points in the order of their phases, 0.01 or more from each other and from "
                           "the start (0) and the end (1).");
-  Geometry<Space>::require(via.point, like, name + ".point");
+  Geometry<Space>::require(via.point, model.start(), name + ".point");
+  const Eigen::Index axes = model.dimension();
   if (via.velocity && !(via.velocity->size() == axes && via.velocity->allFinite()))
     throw InvalidArgument(name + ".velocity: of the wrong size or not finite, expected " +
                           std::to_string(axes) + " finite numbers per s.");
@@ -121,7 +123,7 @@ void follow(const Primitive<Space>& model, const Timetable& timetable,
   const int count = static_cast<int>(vias.size());
   AdaptedRunner<Space> run(runner_of(model), model.start(), model.dimension(), count);
   for (std::size_t j = 0; j < vias.size(); ++j) {
-    require_via<Space>(vias, j, model.start(), model.dimension());
+    require_via<Space>(vias, j, model);
     const Via<Space>& via = vias[j];
     run.adaptation.set(0.0, via.phase, via.point, via.velocity ? via.velocity->data() : nullptr, via.reach);
   }

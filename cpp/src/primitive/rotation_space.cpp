@@ -9,6 +9,7 @@
 #include "geometry/exponential_rates.hpp"
 #include "geometry/pose.hpp"
 #include "primitive/advance.hpp"
+#include "primitive/cycle.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/space.hpp"
 #include "primitive/turning_reference.hpp"
@@ -68,20 +69,22 @@ RowMatrix orientation_forcing(const OrientationTrajectory& motion, const RowMatr
   return forcing_of(tau, alpha, beta, p.second, errors, p.first);
 }
 
-/// The forcing term of p in R = Exp(p) Q: p, p' and p'' from those of R, analytically.
+/// Exp(p) at a sample.
+Quaterniond turn_from(const OrientationTrajectory& motion, Index k, const TurningReference::State& with) {
+  return Quaterniond(motion.rotation[static_cast<std::size_t>(k)]) * with.turn.conjugate();
+}
+
+/// The forcing term of p in R = Exp(p) Q with its goal: p, p' and p'' from those of R, analytically.
 RowMatrix turning_forcing(const OrientationTrajectory& motion, double tau, const DmpOptions& options,
-                          const TurningReference& reference) {
+                          const TurningReference& reference, const Vector3d& goal) {
   const double stiffness = *options.orientation_alpha * *options.orientation_beta;
   const Index n = motion.time.size();
-  const auto log_at = [&](Index k, const TurningReference::State& with) {
-    return so3::log(
-        Quaterniond(Quaterniond(motion.rotation[static_cast<std::size_t>(k)]) * with.turn.conjugate()));
-  };
-  const Vector3d goal = log_at(n - 1, reference.at(1.0));
   RowMatrix forcing(n, 3);
+  Vector3d p = Vector3d::Zero();
   for (Index k = 0; k < n; ++k) {
     const TurningReference::State with = reference.at(motion.time[k] / tau);
-    const Vector3d p = log_at(k, with);
+    p = options.motion == Motion::rhythmic ? so3::lifted_log(turn_from(motion, k, with), p)
+                                           : so3::log(turn_from(motion, k, with));
     const Quaterniond turn = so3::exp_quaternion(p);
     const ExponentialRates rates(p, turn);
     const Matrix3d inverse = so3::left_jacobian_inverse(p);
@@ -101,7 +104,9 @@ RowMatrix forcing_in_form(const OrientationTrajectory& motion, const RowMatrix& 
   if (options.orientation_form != OrientationForm::turning)
     return orientation_forcing(motion, errors, tau, options);
   if (reference.rows() == 0) return RowMatrix::Zero(errors.rows(), 3);
-  return turning_forcing(motion, tau, options, TurningReference(reference));
+  const TurningReference turning(reference);
+  const Vector3d goal = so3::log(turn_from(motion, motion.time.size() - 1, turning.at(1.0)));
+  return turning_forcing(motion, tau, options, turning, goal);
 }
 
 }  // namespace
@@ -127,8 +132,31 @@ void RotationGeometry::set_ends(OrientationDmpParameters& p, const Ends<Rotation
   p.reference = ends.reference;
 }
 
+namespace {
+
+/// Of one cycle about what turns on evenly: p in R = Exp(p) Q, on the branch that it follows.
+Example<RotationSpace> cycle_of(const OrientationDemonstration& cycle, const DmpOptions& options,
+                                const RowMatrix& reference) {
+  require_closed(cycle);
+  const OrientationTrajectory motion = round_of(cycle, cycle_samples(cycle.size(), options));
+  const double tau = cycle.duration();
+  const Matrix3d centre = TurningReference(reference).at(0.0).turn.toRotationMatrix();
+  const Vector3d range = Vector3d::Constant(M_PI);  // scales nothing
+  return {{motion.rotation.front(), centre, tau * motion.angular_velocity.row(0), Vector3d::Zero(), range,
+           reference},
+          {motion.time / tau,
+           turning_forcing(motion, tau, options, TurningReference(reference), Vector3d::Zero()),
+           Vector3d::Ones()},
+          RowMatrix::Zero(motion.time.size(), 1)};
+}
+
+}  // namespace
+
 Example<RotationSpace> RotationGeometry::example_of(const OrientationDemonstration& given,
                                                     const DmpOptions& options, const RowMatrix& reference) {
+  if (options.motion == Motion::rhythmic)
+    return cycle_of(options.derivatives == Derivatives::smooth ? given.smoothed() : given, options,
+                    reference);
   const std::optional<OrientationDemonstration> smoothed =
       options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
   const OrientationDemonstration& demonstration = smoothed ? *smoothed : given;

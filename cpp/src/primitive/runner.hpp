@@ -37,7 +37,8 @@ class Runner {
         coupling_value_(Eigen::VectorXd::Zero(ends.z.size())),
         shift_(RowMatrix::Zero(3, ends.z.size())),
         psi_(forcing.basis().window_capacity()),
-        force_after_end_(options.force_after_end),
+        force_after_end_(options.force_after_end || options.motion == Motion::rhythmic),
+        amplitude_rate_(options.goal_filter),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
     coupling_state_.point = ends.start;
     coupling_state_.goal = ends.goal;
@@ -82,6 +83,17 @@ class Runner {
     }
     return accepted(taken);
   }
+  /// What the forcing term is multiplied by from now on: before the first step at once, later approached as a
+  /// goal is.
+  Status set_amplitude(double amplitude) noexcept {
+    if (!(std::isfinite(amplitude) && amplitude >= 0.0)) return Status::invalid_input;
+    wanted_amplitude_ = amplitude;
+    if (at_start() || amplitude_rate_ == 0.0) amplitude_.fill(amplitude);
+    amplifies_ = true;
+    if (at_start()) publish();
+    return status_;
+  }
+  double amplitude() const noexcept { return wanted_amplitude_; }
   Status set_tracking_error(double error) noexcept { return accepted(phase_.set_tracking_error(error)); }
   void pause() noexcept { phase_.pause(); }
   void resume() noexcept { phase_.resume(); }
@@ -89,6 +101,7 @@ class Runner {
   Status restart(PointArgument point, typename Space::TangentArgument z) noexcept {
     phase_.reset();
     system_.begin(point, z);
+    amplitude_.fill(wanted_amplitude_);
     evaluated_at_ = kNowhere;
     return status_ = publish() ? Status::running : Status::not_finite;
   }
@@ -101,6 +114,9 @@ class Runner {
   /// Takes over the own motion of another runner of the same model, as it is now, to look ahead.
   void shadow(const Runner& other) noexcept {
     system_ = other.system_;
+    amplitude_ = other.amplitude_;
+    wanted_amplitude_ = other.wanted_amplitude_;
+    amplifies_ = other.amplifies_;
     seen_ = other.phase_.s();
     evaluated_at_ = kNowhere;
   }
@@ -168,6 +184,16 @@ class Runner {
     evaluate(kEnd, end, on);
   }
 
+  /// At the nodes of a piece: a share exp(-rate s) of the way is left, so that the drive does not jump.
+  void approach_amplitude(double piece) noexcept {
+    const double half = std::exp(-0.5 * amplitude_rate_ * piece);
+    amplitude_[kStart] = amplitude_[kEnd];
+    const double way = amplitude_[kStart] - wanted_amplitude_;
+    const bool there = amplitude_rate_ == 0.0 || std::abs(way) < 1e-15 * (1.0 + wanted_amplitude_);
+    amplitude_[kMiddle] = there ? wanted_amplitude_ : wanted_amplitude_ + half * way;
+    amplitude_[kEnd] = there ? wanted_amplitude_ : wanted_amplitude_ + half * half * way;
+  }
+
   // The drive: the forcing term, scaled for this run's start and goal, and the coupling.
 
   /// Asks the coupling what it adds from here on.
@@ -184,13 +210,14 @@ class Runner {
   }
 
   [[gnu::always_inline]] const double* drive(Node which) noexcept {
-    return system_.unscaled() && coupling_ == nullptr ? node(which) : formed_drive(which);
+    return system_.unscaled() && coupling_ == nullptr && !amplifies_ ? node(which) : formed_drive(which);
   }
 
   [[gnu::noinline]] const double* formed_drive(Node which) noexcept {
     double* const result = drive_.data() + which * drive_.cols();
     std::copy_n(node(which), drive_.cols(), result);
     if (!system_.unscaled()) system_.scale(result, result + coupling_value_.size());
+    if (amplifies_) Eigen::Map<Eigen::VectorXd>(result, coupling_value_.size()) *= amplitude_[which];
     if (coupling_ != nullptr) Eigen::Map<Eigen::VectorXd>(result, coupling_value_.size()) += coupling_value_;
     return result;
   }
@@ -221,6 +248,7 @@ class Runner {
     evaluate_way(s + 0.5 * piece, s + piece, on);
     evaluated_at_ = on ? s + piece : kNowhere;
     if (coupling_ != nullptr) evaluate_coupling(s);
+    if (amplifies_) approach_amplitude(piece);
     system_.advance(piece, {drive(kStart), drive(kMiddle), drive(kEnd)});
   }
 
@@ -239,6 +267,10 @@ class Runner {
   Eigen::VectorXd psi_;
   double evaluated_at_ = kNowhere;  // the phase whose forcing stands in the last node
   bool force_after_end_;
+  double amplitude_rate_;
+  double wanted_amplitude_ = 1.0;
+  std::array<double, 3> amplitude_{1.0, 1.0, 1.0};  // by Node
+  bool amplifies_ = false;
   double largest_step_;
   Status status_ = Status::running;
 };

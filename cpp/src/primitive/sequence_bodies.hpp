@@ -14,6 +14,12 @@ namespace detail {
 
 constexpr std::size_t kMostParts = 32;
 constexpr std::size_t kMostViasOfPart = 16;
+constexpr double kMostCycles = 1e5;
+
+template <class Space>
+bool is_rhythmic(const SequencePart<Space>& part) {
+  return part.model.options().motion == Motion::rhythmic;
+}
 
 template <class Space>
 void require_part(const SequencePart<Space>& part, const SequencePart<Space>& first,
@@ -22,16 +28,17 @@ void require_part(const SequencePart<Space>& part, const SequencePart<Space>& fi
     throw InvalidArgument(name + ".model: of " + std::to_string(part.model.dimension()) +
                           " dimensions, expected " + std::to_string(first.model.dimension()) +
                           " as the first one.");
-  if (!(part.leave >= kLeastReach && part.leave <= 1.0))
-    throw InvalidArgument(name + ".leave: " + number(part.leave) + ", expected a phase, 0.01 to 1.");
+  const double most = is_rhythmic(part) ? kMostCycles : 1.0;
+  if (!(part.leave >= kLeastReach && part.leave <= most))
+    throw InvalidArgument(name + ".leave: " + number(part.leave) + ", expected a phase, 0.01 to " +
+                          number(most) + ".");
   if (!(part.reach >= kLeastReach && part.reach <= 1.0))
     throw InvalidArgument(name + ".reach: " + number(part.reach) +
                           ", expected a part of the phase, 0.01 to 1.");
   if (part.vias.size() > kMostViasOfPart)
     throw InvalidArgument(name + ".vias: " + std::to_string(part.vias.size()) + ", expected at most 16.");
   try {
-    for (std::size_t j = 0; j < part.vias.size(); ++j)
-      require_via<Space>(part.vias, j, part.model.start(), part.model.dimension());
+    for (std::size_t j = 0; j < part.vias.size(); ++j) require_via<Space>(part.vias, j, part.model);
   } catch (const InvalidArgument& error) {
     throw InvalidArgument(name + "." + error.what());
   }
@@ -85,7 +92,8 @@ double Sequence<Space>::duration() const noexcept {
   double sum = 0.0;
   for (std::size_t k = 0; k < parts_->size(); ++k) {
     const Part& part = (*parts_)[k];
-    sum += (k + 1 < parts_->size() ? part.leave : 1.0) * part.model.duration();
+    const bool is_left = k + 1 < parts_->size() || detail::is_rhythmic(part);
+    sum += (is_left ? part.leave : 1.0) * part.model.duration();
   }
   return sum;
 }

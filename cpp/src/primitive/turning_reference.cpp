@@ -1,6 +1,7 @@
 #include "primitive/turning_reference.hpp"
 
 #include <dmp/error.hpp>
+#include <dmp/so3.hpp>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -87,10 +88,81 @@ RowMatrix least_squares(int spans, const std::vector<VectorXd>& phases,
   return distinct;
 }
 
+void require_round(const RowMatrix& reference) {
+  const double turns = reference.row(1).tail<3>().norm();
+  if (std::abs(reference.row(0).norm() - 1.0) > 1e-6 || reference(1, 0) != 0.0 ||
+      std::abs(turns - std::round(turns)) > 1e-9)
+    throw InvalidArgument(
+        "reference: of a rhythmic motion expected a quaternion of length 1, then 0 and whole turns a cycle.");
+}
+
+/// The rotations without the even turning, Exp(-2 pi s t) R.
+Rotations unwound(const Rotations& cycle, const Vector3d& turns) {
+  Rotations left;
+  const double step = 2.0 * M_PI / static_cast<double>(cycle.size());
+  for (std::size_t k = 0; k < cycle.size(); ++k)
+    left.push_back(so3::exp(-step * static_cast<double>(k) * turns) * cycle[k]);
+  return left;
+}
+
+/// The rotation with which the mean of Log(R M^T) is 0.
+Eigen::Matrix3d middle_of(const Rotations& rotations) {
+  Eigen::Matrix3d middle = so3::mean_rotation(rotations);
+  for (int i = 0; i < 100; ++i) {
+    Vector3d mean = Vector3d::Zero();
+    for (const Eigen::Matrix3d& one : rotations) mean += so3::log(Eigen::Matrix3d(one * middle.transpose()));
+    mean /= static_cast<double>(rotations.size());
+    middle = so3::exp(mean) * middle;
+    if (mean.norm() < 1e-14) break;
+  }
+  return middle;
+}
+
+/// The largest |p| along a cycle on the branch that is followed; beyond all where it does not close.
+double farthest(const Rotations& cycle, const Vector3d& turns) {
+  const Rotations left = unwound(cycle, turns);
+  const Eigen::Matrix3d back = middle_of(left).transpose();
+  Vector3d first = Vector3d::Zero(), p = Vector3d::Zero();
+  double most = 0.0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    p = so3::lifted_log(Quaterniond(Eigen::Matrix3d(left[k] * back)), p);
+    if (k == 0) first = p;
+    most = std::max(most, p.norm());
+  }
+  p = so3::lifted_log(Quaterniond(Eigen::Matrix3d(left[0] * back)), p);
+  return (p - first).norm() < 1.0 ? most : 1e9;
+}
+
 }  // namespace
+
+TurningReference TurningReference::round(const Rotations& cycle) {
+  Vector3d whole = Vector3d::Zero();
+  for (std::size_t k = 0; k < cycle.size(); ++k)
+    whole += so3::log(Eigen::Matrix3d(cycle[(k + 1) % cycle.size()] * cycle[k].transpose()));
+  const double count = std::round(whole.norm() / (2.0 * M_PI));
+  Vector3d turns = Vector3d::Zero();
+  if (count > 0.0 && farthest(cycle, count * whole.normalized()) < farthest(cycle, turns))
+    turns = count * whole.normalized();
+  const Quaterniond middle(middle_of(unwound(cycle, turns)));
+  RowMatrix rows(2, 4);
+  rows << middle.w(), middle.x(), middle.y(), middle.z(), 0.0, turns.transpose();
+  return TurningReference(rows);
+}
+
+TurningReference::State TurningReference::round_at(double s) const noexcept {
+  const Vector3d velocity = 2.0 * M_PI * distinct_.row(1).tail<3>().transpose();
+  const double within =
+      s - 2.0 * std::floor(0.5 * s);  // of two cycles, after which the quaternion is the same
+  const Quaterniond middle = quaternion(distinct_.row(0).transpose()).normalized();
+  return {so3::exp_quaternion(within * velocity) * middle, velocity, Vector3d::Zero()};
+}
 
 TurningReference::TurningReference(const RowMatrix& coefficients) : distinct_(coefficients) {
   const Index spans = coefficients.rows() - 1;
+  if (coefficients.rows() == 2 && coefficients.cols() == 4 && coefficients.allFinite()) {
+    require_round(distinct_);
+    return;
+  }
   if (coefficients.cols() != 4 || spans < 2 || spans > kMostSpans || !coefficients.allFinite())
     throw InvalidArgument("reference: " + std::to_string(coefficients.rows()) + " x " +
                           std::to_string(coefficients.cols()) +
@@ -122,6 +194,7 @@ Vector4d TurningReference::value(double s) const noexcept {
 }
 
 TurningReference::State TurningReference::at(double s) const noexcept {
+  if (goes_round()) return round_at(s);
   if (!(s > 0.0 && s < 1.0)) {
     const Vector4d end = distinct_.row(s > 0.0 ? distinct_.rows() - 1 : 0).transpose();
     return {quaternion(end).normalized(), Vector3d::Zero(), Vector3d::Zero()};

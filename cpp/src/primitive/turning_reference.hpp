@@ -14,14 +14,17 @@
 namespace dmp::detail {
 
 /// The rotation Q(s) that turns along with a demonstration: c / |c| of a quintic B-spline c(s) of quaternions
-/// on M equal spans of the phase, at rest at both ends and beyond them. Two times continuously differentiable
-/// everywhere.
+/// on M equal spans of the phase, at rest at both ends and beyond them; or, of a rhythmic motion, Exp(2 pi s
+/// t) Rbar, whole turns |t| a cycle about one axis. Two times continuously differentiable everywhere.
 class TurningReference {
  public:
   /// (M + 1 x 4) w x y z, M >= 2: the coefficients, of which the first and the last count three times. Throws
   /// InvalidArgument for another size, ends that are not of length 1, or a spline that comes nearer to 0 than
   /// 0.5.
+  /// Two rows are those of a rhythmic motion: the mean rotation Rbar, and 0 and t (turns a cycle, axis).
   explicit TurningReference(const RowMatrix& coefficients);
+  /// The one round which a rhythmic motion goes: one cycle, its last sample left out.
+  static TurningReference round(const Rotations& cycle);
 
   const RowMatrix& coefficients() const noexcept { return distinct_; }
 
@@ -39,6 +42,8 @@ class TurningReference {
                                                const std::vector<RowMatrix>& quaternions);
 
  private:
+  bool goes_round() const noexcept { return distinct_.rows() == 2; }
+  State round_at(double s) const noexcept;
   Eigen::Vector4d value(double s) const noexcept;
 
   RowMatrix distinct_;

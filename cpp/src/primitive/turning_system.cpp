@@ -31,10 +31,11 @@ TurningSystem::TurningSystem(const DmpOptions& options, const RowMatrix& referen
       first_(reference_.at(0.0).turn.conjugate()),
       last_(reference_.at(1.0).turn.conjugate()) {}
 
-/// p = Log(R Q^-1), p' = J_l(p)^-1 eta: Q stands still at the start.
+/// p = Log(R Q^-1), p' = J_l(p)^-1 (eta - Exp(p) omega_Q); only a rhythmic Q moves at the start.
 void TurningSystem::begin(const Quaterniond& rotation, const Vector3d& eta) noexcept {
   const Vector3d p = so3::log(Quaterniond(rotation * first_));
-  const Vector3d z = so3::left_jacobian_inverse(p) * eta;
+  const Vector3d along = so3::exp_quaternion(p) * reference_.at(0.0).velocity;
+  const Vector3d z = so3::left_jacobian_inverse(p) * (eta - along);
   p_.begin(p, z);
 }
 

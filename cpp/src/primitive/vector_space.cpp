@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "primitive/advance.hpp"
+#include "primitive/cycle.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/parameters.hpp"
 #include "primitive/space.hpp"
@@ -53,8 +54,33 @@ void VectorGeometry::set_ends(DmpParameters& p, const Ends<VectorSpace>& ends) {
   p.amplitude = ends.amplitude;
 }
 
+namespace {
+
+/// Of one cycle about its mean.
+Example<VectorSpace> cycle_of(const Demonstration& cycle, const DmpOptions& options) {
+  require_closed(cycle);
+  Trajectory motion = round_of(cycle, cycle_samples(cycle.size(), options));
+  const double tau = cycle.duration();
+  const VectorXd start = motion.position.row(0);
+  const VectorXd centre = motion.position.colwise().mean();
+  const VectorXd range = motion.position.colwise().maxCoeff() - motion.position.colwise().minCoeff();
+  const auto to_centre = (-motion.position).rowwise() + centre.transpose();
+  Example<VectorSpace> example{
+      {start, centre, tau * motion.velocity.row(0), centre - start, range, {}}, {}, {}};
+  example.advance = RowMatrix::Zero(motion.time.size(), 1);
+  example.target = {motion.time / tau,
+                    forcing_of(tau, options.alpha, *options.beta, std::move(motion.acceleration), to_centre,
+                               motion.velocity),
+                    VectorXd::Ones(start.size())};
+  return example;
+}
+
+}  // namespace
+
 Example<VectorSpace> VectorGeometry::example_of(const Demonstration& given, const DmpOptions& options,
                                                 const RowMatrix&) {
+  if (options.motion == Motion::rhythmic)
+    return cycle_of(options.derivatives == Derivatives::smooth ? given.smoothed() : given, options);
   const std::optional<Demonstration> smoothed =
       options.derivatives == Derivatives::smooth ? std::optional(given.smoothed()) : std::nullopt;
   const Demonstration& demonstration = smoothed ? *smoothed : given;

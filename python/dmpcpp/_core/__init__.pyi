@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'NoiseEstimate', 'NoiseKind', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'duration_factor', 'fit_forcing', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Cycle', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'Motion', 'NoiseEstimate', 'NoiseKind', 'OrientationCycle', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'PathReport', 'PoseCycle', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'duration_factor', 'find_cycle', 'fit_forcing', 'frechet', 'from_json', 'load', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'to_json']
 class InvalidArgument(ValueError):
     @property
     def argument(self) -> typing.Any:
@@ -412,6 +412,15 @@ class OrientationForm(enum.Enum):
     @classmethod
     def __new__(cls, value):
         ...
+class Motion(enum.Enum):
+    """
+    From a start to a goal, or round and round about a centre, which is the goal then.
+    """
+    discrete: typing.ClassVar[Motion]
+    rhythmic: typing.ClassVar[Motion]
+    @classmethod
+    def __new__(cls, value):
+        ...
 class LogBranch(enum.Enum):
     """
     Log(Rg R^T) followed through pi, or the shortest rotation.
@@ -559,6 +568,14 @@ class DmpOptions:
         """
     @log_branch.setter
     def log_branch(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def motion(self) -> Motion:
+        """
+        a Motion or its name; rhythmic: a demonstration is one cycle, its last sample the first one again (find_cycle), its duration the period
+        """
+    @motion.setter
+    def motion(self, arg1: typing.Any) -> None:
         ...
     @property
     def orientation_alpha(self) -> float | None:
@@ -802,6 +819,114 @@ class PoseSpread:
     def phase(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (K,) 0 to 1
+        """
+class Cycle:
+    """
+    One cycle of a recorded motion, and how it was found.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def begins(self) -> float:
+        """
+        s from the start of the recording: what lies before differs from what follows
+        """
+    @property
+    def demonstration(self) -> Demonstration:
+        """
+        201 samples, the last one the first again: what motion="rhythmic" learns from
+        """
+    @property
+    def ends(self) -> float:
+        """
+        s, likewise behind
+        """
+    @property
+    def lengths(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        s, of each whole cycle
+        """
+    @property
+    def period(self) -> float:
+        """
+        s, the mean of the cycles
+        """
+    @property
+    def unexplained(self) -> float:
+        """
+        RMS that the cycle leaves of the motion about its middle, a share of it
+        """
+class OrientationCycle:
+    """
+    One cycle of a recorded motion, and how it was found.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def begins(self) -> float:
+        """
+        s from the start of the recording: what lies before differs from what follows
+        """
+    @property
+    def demonstration(self) -> OrientationDemonstration:
+        """
+        201 samples, the last one the first again: what motion="rhythmic" learns from
+        """
+    @property
+    def ends(self) -> float:
+        """
+        s, likewise behind
+        """
+    @property
+    def lengths(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        s, of each whole cycle
+        """
+    @property
+    def period(self) -> float:
+        """
+        s, the mean of the cycles
+        """
+    @property
+    def unexplained(self) -> float:
+        """
+        RMS that the cycle leaves of the motion about its middle, a share of it
+        """
+class PoseCycle:
+    """
+    One cycle of a recorded motion, and how it was found.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def begins(self) -> float:
+        """
+        s from the start of the recording: what lies before differs from what follows
+        """
+    @property
+    def demonstration(self) -> PoseDemonstration:
+        """
+        201 samples, the last one the first again: what motion="rhythmic" learns from
+        """
+    @property
+    def ends(self) -> float:
+        """
+        s, likewise behind
+        """
+    @property
+    def lengths(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        s, of each whole cycle
+        """
+    @property
+    def period(self) -> float:
+        """
+        s, the mean of the cycles
+        """
+    @property
+    def unexplained(self) -> float:
+        """
+        RMS that the cycle leaves of the motion about its middle, a share of it
         """
 class Via:
     """
@@ -1103,6 +1228,14 @@ class Run:
         """
         (d,) per s^2
         """
+    @property
+    def amplitude(self) -> float:
+        """
+        what the forcing term is multiplied by, 1 at first: of a rhythmic motion what it goes away from its centre; approached as a goal is
+        """
+    @amplitude.setter
+    def amplitude(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def duration(self) -> float:
         """
@@ -1521,6 +1654,14 @@ class OrientationRun:
         """
         Passes `point` (shaped as the property goal) at a phase that lies ahead, 0.01 to 0.99, and changes the motion within `reach` only, a part of the phase or one before and one behind: exactly, whatever happens to goal, duration or point until then. With `velocity` (d,) per s it has that there. Returns Status.running, or Status.too_late where less than 0.01 is left until there; raises InvalidArgument for what can be no via-point.
         """
+    @property
+    def amplitude(self) -> float:
+        """
+        what the forcing term is multiplied by, 1 at first: of a rhythmic motion what it goes away from its centre; approached as a goal is
+        """
+    @amplitude.setter
+    def amplitude(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def angular_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1949,6 +2090,14 @@ class PoseRun:
         """
         (6,) m/s^2, rad/s^2, world frame
         """
+    @property
+    def amplitude(self) -> float:
+        """
+        what the forcing term is multiplied by, 1 at first: of a rhythmic motion what it goes away from its centre; approached as a goal is
+        """
+    @amplitude.setter
+    def amplitude(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def duration(self) -> float:
         """
@@ -2476,6 +2625,14 @@ class PoseGripperRun:
         """
         (6,) m/s^2, rad/s^2, world frame
         """
+    @property
+    def amplitude(self) -> float:
+        """
+        what the forcing term is multiplied by, 1 at first: of a rhythmic motion what it goes away from its centre; approached as a goal is
+        """
+    @amplitude.setter
+    def amplitude(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
     @property
     def duration(self) -> float:
         """
@@ -3415,6 +3572,21 @@ def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[nu
     [N m], for which the arm is needed, at the samples, by KDL's inverse dynamics with `gravity` (3,) [m/s^2] in the base
     frame. 0 if nothing moves. Raises InvalidArgument for limits of other sizes or signs, or an effort with which the arm
     cannot stand still.
+    """
+@typing.overload
+def find_cycle(recording: Demonstration, minimum_period: typing.SupportsFloat | typing.SupportsIndex = 0.0, harmonics: typing.SupportsInt | typing.SupportsIndex = 8) -> Cycle:
+    """
+    Finds the period of a recording that repeats, the parts at its ends that do not, and the one cycle that all of them are, each at its own tempo. `minimum_period` (s): half the true period may pass for it where a motion is the same on its way there and back. `harmonics` of the cycle, 1 to 40. Raises InvalidArgument for a recording without a period or of fewer than two cycles.
+    """
+@typing.overload
+def find_cycle(recording: OrientationDemonstration, minimum_period: typing.SupportsFloat | typing.SupportsIndex = 0.0, harmonics: typing.SupportsInt | typing.SupportsIndex = 8) -> OrientationCycle:
+    """
+    Finds the period of a recording that repeats, the parts at its ends that do not, and the one cycle that all of them are, each at its own tempo. `minimum_period` (s): half the true period may pass for it where a motion is the same on its way there and back. `harmonics` of the cycle, 1 to 40. Raises InvalidArgument for a recording without a period or of fewer than two cycles.
+    """
+@typing.overload
+def find_cycle(recording: PoseDemonstration, minimum_period: typing.SupportsFloat | typing.SupportsIndex = 0.0, harmonics: typing.SupportsInt | typing.SupportsIndex = 8) -> PoseCycle:
+    """
+    Finds the period of a recording that repeats, the parts at its ends that do not, and the one cycle that all of them are, each at its own tempo. `minimum_period` (s): half the true period may pass for it where a motion is the same on its way there and back. `harmonics` of the cycle, 1 to 40. Raises InvalidArgument for a recording without a period or of fewer than two cycles.
     """
 def fit_forcing(basis: GaussianBasis, targets: collections.abc.Sequence[ForcingTarget], options: DmpOptions | None = None, **kwargs) -> numpy.typing.NDArray[numpy.float64]:
     """

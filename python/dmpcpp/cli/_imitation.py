@@ -16,6 +16,7 @@ from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines, exports
 from dmpcpp.cli._config import save_config
+from dmpcpp.cli._flags import flag
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 from dmpcpp.cli._options import (
@@ -29,7 +30,7 @@ from dmpcpp.cli._options import (
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._tables import arm_line, checks_table, note_style, way
 from dmpcpp.cli._verdict import print_verdict
-from dmpcpp.errors import MissingDependency
+from dmpcpp.errors import InvalidArgument, MissingDependency
 
 if TYPE_CHECKING:
     from dmpcpp._core import Arm
@@ -123,6 +124,17 @@ def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> P
 @arm_options
 @follow_option
 @contact_options
+@click.option(
+    "--rhythmic", is_flag=True, help="FILE repeats: learn one cycle of it, found by itself, and execute --cycles."
+)
+@click.option("--cycles", default=5, show_default=True, type=click.IntRange(2, 1000), help="Cycles of --rhythmic.")
+@click.option(
+    "--minimum-period",
+    default=0.0,
+    type=click.FloatRange(0),
+    metavar="S",
+    help="Shortest period [s] of --rhythmic, where half of it would pass for one.",
+)
 @_run_options("dmpcpp-imitation")
 def imitate(file: Path, **options: Any) -> None:
     """Execute the motion in FILE, a recording in any format that `dmpcpp inspect` reads.
@@ -133,6 +145,7 @@ def imitate(file: Path, **options: Any) -> None:
 
     preparation, smooth = taken_preparation(options)
     placing = taken_placing(options)
+    rhythm = _taken_rhythm(options)
     how = {"surroundings": taken_surroundings(options), "follow": options.pop("follow")}
     if callable(placing["place"]):
         placing["place"] = partial(placing["place"], follow=how["follow"])
@@ -140,7 +153,17 @@ def imitate(file: Path, **options: Any) -> None:
     run = {name: options.pop(name) for name in taken}
     loaded = recordings.load_all(file, **taken_recording(options))
     recording, *others = [part for each in loaded for part in motion.prepare_all(each, preparation)]
-    _carry_out(recording, taken_arm(options), smooth=smooth, others=others, **placing, **how, **run)
+    _carry_out(recording, taken_arm(options), smooth=smooth, others=others, **placing, **how, **rhythm, **run)
+
+
+def _taken_rhythm(options: dict[str, Any]) -> dict[str, Any]:
+    """Take what --rhythmic states out of the options."""
+    rhythmic, cycles, period = (options.pop(name) for name in ("rhythmic", "cycles", "minimum_period"))
+    source = click.get_current_context().get_parameter_source
+    for name in ("cycles", "minimum_period"):
+        if not rhythmic and source(name) == click.core.ParameterSource.COMMANDLINE:
+            raise InvalidArgument(f"{flag(name)}: without --rhythmic it says nothing. State --rhythmic too.")
+    return {"cycles": cycles, "minimum_period": period} if rhythmic else {}
 
 
 def _carry_out(

@@ -225,6 +225,9 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     help="Pass this point [m], or pose, at S of the motion, 0.01 to 0.99; may be given several times.",
 )
 @click.option(
+    "--cycles", default=5, show_default=True, type=click.IntRange(2, 1000), help="Cycles of a rhythmic MODEL."
+)
+@click.option(
     "--duration",
     type=float,
     metavar="S",
@@ -254,6 +257,7 @@ def plan(
     model: Path,
     goal: str | None,
     via: tuple[str, ...],
+    cycles: int,
     duration: float | None,
     exact_duration: bool,
     from_joints: str | None,
@@ -276,7 +280,7 @@ def plan(
     learned, engine, around = load(model), simulation.ENGINES.get(simulator), taken_surroundings(arm)
     end = _goal(goal, learned)
     found = planning.plan(
-        learned,
+        planning.Cycles(learned, cycles) if _is_rhythmic(learned) else learned,
         taken_arm(arm),
         goal=end,
         duration=duration,
@@ -332,6 +336,12 @@ def _goal(text: str | None, model: Any) -> Array | None:
         return place
     pose[:3, 3] = place
     return pose
+
+
+def _is_rhythmic(model: Any) -> bool:
+    from dmpcpp import Motion, PoseDmp
+
+    return isinstance(model, PoseDmp) and model.options.motion == Motion.rhythmic
 
 
 def _via(text: str) -> tuple[float, Array]:

@@ -22,7 +22,7 @@ from dmpcpp.errors import InvalidArgument
 from dmpcpp.learning import Evidence, Lesson, evidence, learn, reproduction, reproduction_checks, teach
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
-from dmpcpp.planning import Engine, LookedAt, Placement, clear_of_itself, require_free_postures, solve
+from dmpcpp.planning import Cycles, Engine, LookedAt, Placement, clear_of_itself, require_free_postures, solve
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
 from dmpcpp.robot import (
@@ -154,6 +154,8 @@ def imitate(
     dynamics: str = "full",
     surroundings: Surroundings | None = None,
     follow: str | Follow | None = None,
+    cycles: int | None = None,
+    minimum_period: float = 0.0,
     progress: Progress | None = None,
 ) -> Imitation:
     """Carry out a recorded motion on a simulated arm and say how well that went.
@@ -191,6 +193,11 @@ def imitate(
     follow : str, optional
         "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
         than six joints needs it.
+    cycles : int, optional
+        The recording is a motion that repeats: one cycle of it is found (`motion.one_cycle`) and learned as a rhythmic
+        model, which is carried out so many times, from rest to rest (`planning.Cycles`).
+    minimum_period : float
+        s, of the cycle that is looked for.
     progress : callable, optional
         See `Progress`.
 
@@ -213,6 +220,10 @@ def imitate(
     looked_at = require_free_postures(arm, engines[0])
     clear = clear_of_itself(arm, engines[0])
     recording = motion.plausible(motion.continuous(recording))
+    if cycles is not None:
+        if others:
+            raise InvalidArgument("others: given, expected none: one recording shows a rhythmic motion.")
+        recording = motion.one_cycle(recording, minimum_period)
     if place is True:
         place = partial(place_motion, seed=seed, scale=scale, follow=followed)
     placement = place(recording, arm, accept=clear) if place else None
@@ -221,11 +232,12 @@ def imitate(
     demonstration = motion.demonstration(placed)
     found = evidence(demonstration, smooth=smooth)
     lesson = _together(placed, others, placement, basis_count, smooth) if others else None
-    model = lesson.model if lesson else learn(demonstration, basis_count, smooth=smooth)
+    model = lesson.model if lesson else learn(demonstration, basis_count, smooth=smooth, rhythmic=cycles is not None)
     placed = _noted(placed, found)
     tell("solve", 0.0)
+    led = Cycles(model, cycles) if cycles is not None else model
     solution = solve(
-        model, arm, start=placement.start if placement else None, accept=clear, engine=engines[0], follow=followed
+        led, arm, start=placement.start if placement else None, accept=clear, engine=engines[0], follow=followed
     )
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
     require_holdable(arm, joints.position)

@@ -26,6 +26,7 @@ from dmpcpp.motion._poses import (
     turn_angles,
 )
 from dmpcpp.motion._preparation import Preparation, prepare, prepare_all
+from dmpcpp.motion._rhythm import one_cycle
 from dmpcpp.motion._segmentation import cycles, segments, spans_of_cycles, spans_of_segments, speed
 from dmpcpp.motion._smoothing import Noise, low_pass, noise, smooth, white_noise
 from dmpcpp.motion._timing import crop, refine, resample
@@ -50,6 +51,7 @@ __all__ = [
     "mean",
     "medoid",
     "noise",
+    "one_cycle",
     "one_motion",
     "outliers",
     "plausible",

@@ -9,6 +9,7 @@ A recorded motion is placed by one similarity transform (`place`, `anchor`); `pl
 
 from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
 from dmpcpp.planning._clearance import ClearOfItself, LookedAt, clear_of_itself, require_free_postures
+from dmpcpp.planning._cycles import Cycles
 from dmpcpp.planning._joints import Engine, Slowed, Solution, limit_factor, slowed, solve
 from dmpcpp.planning._placement import Accept, Placement
 from dmpcpp.planning._plan import JointPlan, at_phases, plan, write
@@ -17,6 +18,7 @@ from dmpcpp.planning._search import place, placed
 __all__ = [
     "Accept",
     "ClearOfItself",
+    "Cycles",
     "Engine",
     "JointPlan",
     "LookedAt",

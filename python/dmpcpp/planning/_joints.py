@@ -24,6 +24,7 @@ from dmpcpp._core import (
 )
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._cycles import Cycles
 from dmpcpp.planning._placement import Accept
 from dmpcpp.robot import POSE, Follow, stated_duration_factor
 from dmpcpp.simulation import Simulator
@@ -31,6 +32,8 @@ from dmpcpp.simulation import Simulator
 __all__ = ["Engine", "Slowed", "Solution", "limit_factor", "slowed", "solve"]
 
 Engine = Callable[..., Simulator]
+Led = PoseDmp | PoseDmpSequence | Cycles
+"""What leads an arm's tip: a model, several one after another, or cycles of a rhythmic one."""
 
 _SAMPLES = 1000  # of a path, at least
 _SAMPLES_PER_KERNEL = 10
@@ -78,7 +81,7 @@ class Slowed:
 
 
 def solve(
-    model: PoseDmp | PoseDmpSequence,
+    model: Led,
     arm: Arm,
     *,
     goal: ArrayLike | None = None,
@@ -95,7 +98,7 @@ def solve(
 
     Parameters
     ----------
-    model : PoseDmp or PoseDmpSequence
+    model : PoseDmp, PoseDmpSequence or Cycles
         Of poses of the arm's tip in its base frame.
     arm : Arm
     goal : array_like (4, 4), optional
@@ -137,14 +140,14 @@ def solve(
     return Solution(motion, slow.joints, slow.factor)
 
 
-def _kernels(model: PoseDmp | PoseDmpSequence) -> int:
+def _kernels(model: Led) -> int:
+    if isinstance(model, Cycles):
+        return model.count * model.options.basis_count
     parts = model.models if isinstance(model, PoseDmpSequence) else [model]
     return sum(part.options.basis_count for part in parts)
 
 
-def _rolled_out(
-    model: PoseDmp | PoseDmpSequence, goal: ArrayLike | None, duration: float, dt: float, via: Sequence[Via]
-) -> PoseTrajectory:
+def _rolled_out(model: Led, goal: ArrayLike | None, duration: float, dt: float, via: Sequence[Via]) -> PoseTrajectory:
     if not isinstance(model, PoseDmpSequence):
         return model.rollout(goal, duration, dt, via=via)
     if via:

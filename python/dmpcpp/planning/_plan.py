@@ -19,12 +19,12 @@ from numpy.typing import ArrayLike
 
 from dmpcpp import export
 from dmpcpp._atomic import write_text
-from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseDmpSequence, PoseTrajectory, Via
+from dmpcpp._core import Arm, JointTrajectory, Motion, PoseDmp, PoseTrajectory, Via
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._clearance import LookedAt, clear_of_itself, require_free_postures
-from dmpcpp.planning._joints import solve
+from dmpcpp.planning._joints import Led, solve
 from dmpcpp.robot import (
     POSE,
     Follow,
@@ -96,7 +96,7 @@ class JointPlan(Checked):
 
 
 def plan(
-    model: PoseDmp | PoseDmpSequence,
+    model: Led,
     arm: Arm,
     *,
     goal: ArrayLike | None = None,
@@ -112,7 +112,7 @@ def plan(
 
     Parameters
     ----------
-    model : PoseDmp or PoseDmpSequence
+    model : PoseDmp, PoseDmpSequence or Cycles
         Of poses of the arm's tip in its base frame.
     arm : Arm
     goal : (4, 4), optional
@@ -142,10 +142,12 @@ def plan(
         touch, motors that cannot hold the arm, or what `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An
         unreachable path does not raise: `ik_position_residual` or `ik_angle_residual` fails.
     """
-    if not isinstance(model, PoseDmp | PoseDmpSequence):
+    if not isinstance(model, Led):
         raise InvalidArgument(
             f"model: a {type(model).__name__}, expected a PoseDmp: an arm's tip has position and rotation."
         )
+    if isinstance(model, PoseDmp) and model.options.motion == Motion.rhythmic:
+        raise InvalidArgument("model: a rhythmic one comes to no end, expected planning.Cycles(model, count).")
     accepted = accepted_names(accept)
     followed = following(arm, follow)
     wanted = model.duration if duration is None else duration
