@@ -81,7 +81,8 @@ Returns IkStatus.ok, or why the pose is missed. Raises InvalidArgument, and chan
 is none.)")
       .def_property(
           "joints", [](const JointTracker& t) { return from_vector(t.joints()); }, &set_joints,
-          "(n,) rad or m, within the limits or on the way back onto them; set it to where the robot stands after "
+          "(n,) rad or m, within the limits or on the way back onto them; set it to where the robot stands "
+          "after "
           "all, and its velocity becomes 0.")
       .def_property_readonly(
           "velocity", [](const JointTracker& t) { return from_vector(t.velocity()); },
