@@ -21,6 +21,7 @@ ALIASES = {
     "longest": "longest_gap",
     "name": "arm",
     "noises": "noise",
+    "others": "file",
     "poses": "file",
     "recording": "file",
     "recordings": "files",

@@ -222,7 +222,9 @@ def imitate(
     recording = motion.plausible(motion.continuous(recording))
     if cycles is not None:
         if others:
-            raise InvalidArgument("others: given, expected none: one recording shows a rhythmic motion.")
+            raise InvalidArgument(
+                "others: more recordings, expected none: a rhythmic motion is learned from one take. Choose one."
+            )
         recording = motion.one_cycle(recording, minimum_period)
     if place is True:
         place = partial(place_motion, seed=seed, scale=scale, follow=followed)

@@ -151,7 +151,9 @@ def _rolled_out(model: Led, goal: ArrayLike | None, duration: float, dt: float, 
     if not isinstance(model, PoseDmpSequence):
         return model.rollout(goal, duration, dt, via=via)
     if via:
-        raise InvalidArgument("via: of a sequence, expected none: its motions have their own: PoseDmpSequence(via=..).")
+        raise InvalidArgument(
+            "via: of a sequence, expected none. Give each motion its own when PoseDmpSequence is made."
+        )
     return model.rollout(goal, duration, dt)
 
 

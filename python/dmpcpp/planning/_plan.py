@@ -138,9 +138,10 @@ def plan(
     Raises
     ------
     InvalidArgument
-        Not a PoseDmp, goal out of reach, unknown name in `accept`, too few joints for `follow`, links that always
-        touch, motors that cannot hold the arm, or what `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An
-        unreachable path does not raise: `ik_position_residual` or `ik_angle_residual` fails.
+        Not such a model, or a rhythmic one without `Cycles`; goal or via-point out of reach, unknown name in `accept`,
+        too few joints for `follow`, links that always touch, motors that cannot hold the arm, or what
+        `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An unreachable path does not raise:
+        `ik_position_residual` or `ik_angle_residual` fails.
     """
     if not isinstance(model, Led):
         raise InvalidArgument(
