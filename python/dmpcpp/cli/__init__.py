@@ -1,5 +1,5 @@
 """The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | view |
-report | batch | arms | check-urdf | doctor | fetch`.
+report | batch | arms | check-urdf | doctor | fetch | example`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -8,6 +8,7 @@ from dmpcpp.cli._arms import arms
 from dmpcpp.cli._batch import batch
 from dmpcpp.cli._checking import check_urdf, doctor
 from dmpcpp.cli._config import configurable
+from dmpcpp.cli._example import example
 from dmpcpp.cli._fetch import fetch
 from dmpcpp.cli._generality import generality
 from dmpcpp.cli._grasp import grasp
@@ -38,6 +39,7 @@ _COMMANDS = (
     check_urdf,
     doctor,
     fetch,
+    example,
 )
 
 for command in _COMMANDS:

@@ -87,7 +87,7 @@ def batch(
 
     Stop it at any time: the next run goes on. Exit status: 0 all verified, 3 some not.
 
-    Example: dmpcpp batch takes --pattern '*.bvh' --body RightHand --unit cm --arm panda --jobs 2 --out results
+    Example: dmpcpp batch takes --pattern '*.csv' --arm panda --jobs 2 --out results
     """
     from dmpcpp.robot import arms
     from dmpcpp.trials import batch as library

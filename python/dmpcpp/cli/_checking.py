@@ -29,7 +29,7 @@ def check_urdf(file: Path, base: str | None, tip: str | None, package_path: tupl
 
     Exit status: 0 none, 2 the file cannot be read, 3 there are some.
 
-    Example: dmpcpp check-urdf my_robot.urdf --base base_link --tip tool0
+    Example: dmpcpp check-urdf my_robot.urdf --base link0 --tip tool0
     """
     from dmpcpp.robot import urdf_check
 

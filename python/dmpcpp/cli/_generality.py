@@ -67,7 +67,7 @@ def generality(
     Each is a sum of three sinusoids spanning 0.2-0.4 m and 30-90 deg, led to a goal up to 0.1 m away in half to
     twice its time. Stop it at any time: the next run goes on.
 
-    Example: dmpcpp generality -k 200 --arm panda --out generality
+    Example: dmpcpp generality -k 20 --arm panda --out generality
     """
     from dmpcpp._atomic import write_text
     from dmpcpp.robot import arms as known

@@ -139,7 +139,7 @@ def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> P
 def imitate(file: Path, **options: Any) -> None:
     """Execute the motion in FILE, a recording in any format that `dmpcpp inspect` reads.
 
-    Example: dmpcpp imitate session.csv --body hand --unit mm --arm panda --out session
+    Example: dmpcpp imitate reach.bvh --body RightHand --unit cm --arm panda --out reach
     """
     from dmpcpp import motion, recordings
 

@@ -43,7 +43,7 @@ def inspect(file: Path, plot: str | None, as_json: bool, **options: Any) -> None
     table, .npy or .npz, a DeepMimic clip. Exit status: 0 ready to be learned, 2 unreadable, 3 something must be
     specified or fixed first.
 
-    Example: dmpcpp inspect lift.c3d --markers WRIST,STYLr,STYLu
+    Example: dmpcpp inspect lift.trc --markers WRIST,STYLr,STYLu --up-axis z
     """
     from dmpcpp import inspection
 

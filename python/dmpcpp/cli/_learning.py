@@ -272,7 +272,7 @@ def plan(
     Checked are inverse kinematics, joint limits and contacts of the arm with itself and the floor; `dmpcpp imitate`
     executes under physics as well. Where a check fails or is not judged there is no joints.csv.
 
-    Example: dmpcpp plan reach.json --arm panda --goal 0.5,0.1,0.4 --duration 3 --out plan
+    Example: dmpcpp plan reach/model.json --arm panda --duration 3 --out plan
     """
     from dmpcpp import load, planning, simulation
 

@@ -29,7 +29,7 @@ def view(model: Path, host: str, port: int, as_json: bool, **arm: Any) -> None:
 
     The motion, the arm's joints and how near they come to their limits follow at once. Ctrl-C ends it.
 
-    Example: dmpcpp view reach.json --arm panda
+    Example: dmpcpp view reach/model.json --arm panda
     """
     from dmpcpp import load
     from dmpcpp.show import view as library
@@ -48,7 +48,7 @@ def report(folder: Path, as_json: bool) -> None:
 
     The page is one file that loads nothing: verdict and checks, the moving arm, figures, how to repeat the run.
 
-    Example: dmpcpp report dmpcpp-demo
+    Example: dmpcpp report reach
     """
     from dmpcpp.show import report as library
 

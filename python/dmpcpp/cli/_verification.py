@@ -72,7 +72,7 @@ def verify(
     LOG is a CSV with the columns time, <joints> and optionally <joint>_vel and <joint>_torque, or a ROS bag with
     sensor_msgs/JointState. Its time lag is estimated from the joints: the two clocks need not agree.
 
-    Example: dmpcpp verify dance/joints.csv robot.csv --arm panda --tolerance position_max=0.005
+    Example: dmpcpp verify reach/joints.csv log.csv --arm panda --tolerance position_max=0.005
     """
     from dmpcpp import export, simulation, verification
 

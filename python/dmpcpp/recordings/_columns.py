@@ -35,7 +35,7 @@ _UNIT = re.compile(
     r"(?P<name>.*?)\s*(?:[\[(]\s*(?P<bracketed>[^\])]*?)\s*[\])]|[ _](?P<unit>[a-z\u00b5\u03bc]+))", re.IGNORECASE
 )
 _TIME = re.compile(
-    r"%?_*(?:t|times?|time_?stamps?|elapsed(?:[ _]time)?|seconds|(?:unix|epoch|sys|device)_?time(?:stamp)?|"
+    r"%?_*(?:t|times?|(?:time_?)?stamps?|ts|elapsed(?:[ _]time)?|seconds|(?:unix|epoch|sys|device)_?time(?:stamp)?|"
     r"date_?time|file_?time)"
 )
 _WHAT = re.compile(
