@@ -1,4 +1,4 @@
-"""`dmpcpp example`: small files that can be typed along with, the same bytes each time, read without a question left."""
+"""`dmpcpp example`: small files to type along with, the same bytes each time, read without a question left."""
 
 import numpy as np
 import pytest

@@ -97,6 +97,38 @@ def path_pixels(pixels):
     return int(((red > green + 15) & (green > blue + 30)).sum())
 
 
+def test_the_first_screen_has_verdict_motion_and_four_figures_before_anything_else(folder):
+    page = (folder / "report.html").read_text()
+    first = page[: page.index('id="checks"')]
+    assert first.count('class="tile"') == 4
+    for title in ("How close", "How fast", "How near to limits", "What was changed"):
+        assert f"<span>{title}</span>" in first
+    assert first.index('id="verdict"') < first.index('class="poster"') < first.index("<iframe")
+    assert "<table" not in first
+
+
+def test_checks_are_grouped_in_plain_words_and_folded(folder):
+    page = (folder / "report.html").read_text()
+    assert '<summary class="held"><b>Limits</b>: 6 of 6 hold</summary>' in page
+    assert "<td>joint speed, share of its limit</td>" in page
+    assert page.count("<details>") >= 5 and "<details open" not in page
+
+
+def test_the_command_that_repeats_the_run_can_be_copied(folder):
+    page = (folder / "report.html").read_text()
+    assert re.search(r"<pre>dmpcpp imitate --config[^<]*</pre><button[^>]*clipboard[^>]*>copy</button>", page)
+
+
+@pytest.mark.slow
+def test_the_first_screen_of_a_laptop_shows_arm_verdict_and_figures(folder, tmp_path):
+    bottom = "[...document.querySelectorAll('.tile, iframe')].map(e => e.getBoundingClientRect().bottom)"
+    scripts = {"bottom": bottom, "drawn": "document.querySelector('.stage').classList.contains('drawn')"}
+    page = folder / "report.html"
+    seen = look(page, tmp_path, until=lambda seen: bool(seen.values["drawn"]), scripts=scripts, size="1366,768")
+    assert seen.values["drawn"] and seen.complaints == []
+    assert max(seen.values["bottom"]) <= 768
+
+
 @pytest.mark.slow
 def test_chromium_shows_the_arm_without_a_request_or_a_complaint(folder, tmp_path):
     # Chromium draws a frame only once it is in view, and by the processor that takes as long as it takes.

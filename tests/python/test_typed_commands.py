@@ -36,8 +36,8 @@ def run(words: list[str], folder: Path, seconds: float = 900) -> subprocess.Comp
 
 
 def look_and_leave(words: list[str], folder: Path) -> None:
-    """Start `dmpcpp view` without a browser, wait for its address, interrupt it."""
-    command = [sys.executable, "-m", "dmpcpp", *words[1:], "--no-browser"]
+    """Start `dmpcpp view`, wait for its address, interrupt it."""
+    command = [sys.executable, "-m", "dmpcpp", *words[1:]]
     with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as view:
         said = ""
         until = time.monotonic() + 60

@@ -10,10 +10,8 @@ from click.shell_completion import CompletionItem
 from dmpcpp import examples
 
 
-class _Name(click.ParamType):
+class _Name(click.types.StringParamType):
     """The name of an example; completed by the shell, checked where it is written."""
-
-    name = "name"
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         return [

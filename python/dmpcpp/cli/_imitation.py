@@ -28,7 +28,7 @@ from dmpcpp.cli._options import (
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
-from dmpcpp.cli._tables import arm_line, checks_table, note_style, way
+from dmpcpp.cli._tables import arm_line, note_style, print_checks, print_figures, way
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
@@ -273,7 +273,8 @@ def _print(run: Imitation, out: Path) -> None:
         markup=False,
     )
     console.print(_errors_table(run, Table))
-    console.print(checks_table(run.checks))
+    print_figures(console, run.summary())
+    print_checks(console, run.checks)
     assumed, changed = assumptions(run.log.arm), run.changed
     print_verdict(console, run, _how(run), assumed=assumed, changed=changed, advice=_advice(run))
     caution = "" if run.ok else "; do not run its joints.csv on a robot"

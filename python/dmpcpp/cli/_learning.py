@@ -33,7 +33,7 @@ from dmpcpp.cli._options import (
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
-from dmpcpp.cli._tables import arm_line, checks_table, note_style, way
+from dmpcpp.cli._tables import arm_line, note_style, print_checks, way
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
@@ -195,7 +195,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     for warning in lesson.fit.warnings:
         console.print(warning, style="yellow", soft_wrap=True, markup=False)
     if lesson.checks:
-        console.print(checks_table(lesson.checks))
+        print_checks(console, lesson.checks)
     console.print(
         f"{lesson.model.options.basis_count} kernels, {lesson.model.duration:.2f} s, {way(lesson.model)} m; "
         + (
@@ -310,7 +310,7 @@ def _print_plan(found: JointPlan, out: Path) -> None:
     console.print(f"arm: {arm_line(found.arm)}", soft_wrap=True, markup=False)
     if found.contacts:
         console.print(f"contacts: {found.contacts.describe()}", style="dim", soft_wrap=True, markup=False)
-    console.print(checks_table(found.checks))
+    print_checks(console, found.checks)
     duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x the requested duration"
     how = f"{duration}; written to {out}/" + (
         "" if found.ok else ", without joints.csv: do not run this plan on a robot"

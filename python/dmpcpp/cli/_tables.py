@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
+from dmpcpp._check_words import figure, figures_of, group_of, words_of
 from dmpcpp._notes import Note
 
 if TYPE_CHECKING:
-    from rich.table import Table
+    from rich.console import Console
 
     from dmpcpp._core import Arm, PoseDmp
     from dmpcpp.checks import Check
@@ -32,28 +34,38 @@ def way(model: PoseDmp) -> str:
     return f"from {start} to {goal}"
 
 
-def checks_table(checks: Iterable[Check]) -> Table:
-    """One row a check: whether it held, its number and limit, and where."""
+def print_checks(console: Console, checks: Iterable[Check]) -> None:
+    """Print how many checks hold, by group, and a row for each that does not."""
     from rich.markup import escape
     from rich.table import Table
 
-    table = Table(title="checks", title_justify="left")
-    for title in ("", "check", "value", "limit", "unit", "where"):
-        side = "right" if title in ("value", "limit") else "left"
-        table.add_column(
-            title, justify=side, no_wrap=title in ("", "check"), overflow="fold"
-        )  # a joint's name stays whole
-    for check in checks:
+    all_of_them = tuple(checks)
+    held = Counter(group_of(check.name) for check in all_of_them if check.result == "holds")
+    groups = ", ".join(f"{group.removeprefix('The ').lower()} {count}" for group, count in held.items())
+    console.print(
+        f"checks: {held.total()} of {len(all_of_them)} hold" + (f" ({groups})" if groups else ""),
+        soft_wrap=True,
+        markup=False,
+    )
+    others = [check for check in all_of_them if check.result != "holds"]
+    if not others:
+        return
+    table = Table()
+    for title in ("", "check", "what", "found", "allowed", "where"):
+        side = "right" if title in ("found", "allowed") else "left"
+        table.add_column(title, justify=side, no_wrap=title in ("", "check"), overflow="fold")
+    for check in others:
         where = f"{check.time:.2f} s " if check.time is not None else ""
-        numbers = (number(check.value), number(check.limit))
-        table.add_row(
-            mark(check),
-            check.name,
-            *numbers,
-            check.unit,
-            escape(where + (check.detail if check.judged else "see below")),
-        )
-    return table
+        numbers = (figure(value, check.unit, check.name) for value in (check.value, check.limit))
+        detail = check.detail if check.judged else "see below"
+        table.add_row(mark(check), check.name, words_of(check.name), *numbers, escape(where + detail))
+    console.print(table)
+
+
+def print_figures(console: Console, summary: Mapping[str, Any]) -> None:
+    """Print the four figures of a run: how close, how fast, how near to limits, what was changed."""
+    for each in figures_of(summary):
+        console.print(f"{each.title.lower():<19}{each.number}  ({each.line})", soft_wrap=True, markup=False)
 
 
 def mark(check: Check) -> str:

@@ -17,7 +17,7 @@ from dmpcpp.cli._choices import engines
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE
-from dmpcpp.cli._tables import checks_table
+from dmpcpp.cli._tables import print_checks
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
@@ -127,7 +127,7 @@ def _print(result: Verification) -> None:
         console.print(line, style="dim", soft_wrap=True, markup=False)
     console.print(f"plan starts at {result.lag:.4f} s on the log's clock")
     console.print(_measures_table(result))
-    console.print(checks_table(result.checks))
+    print_checks(console, result.checks)
     how = f"{result.log.arm.name}, {result.log.simulator}, {result.log.mode} ({result.log.caveat})."
     print_verdict(console, result, how, assumed=assumptions(result.log.arm))
 

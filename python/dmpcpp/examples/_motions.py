@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._typing import Array
@@ -45,7 +46,7 @@ class HandMotion:
         found[1:] *= np.cumprod(flips)[:, None]
         return found
 
-    def kept(self, there: Array) -> HandMotion:
+    def kept(self, there: NDArray[np.bool_]) -> HandMotion:
         """Return the samples where `there` (T,) is true."""
         return HandMotion(self.time[there], self.position[there], self.turn[there])
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from dmpcpp import _core
 from dmpcpp._typing import Array
@@ -14,7 +15,17 @@ from dmpcpp.show import plot
 from dmpcpp.show.report._run_folder import RunFolder
 from dmpcpp.show.scene import triangles
 
-__all__ = ["coordinates", "demonstrations", "errors", "joints", "path", "phase_and_kernels", "rotation", "still"]
+__all__ = [
+    "coordinates",
+    "demonstrations",
+    "errors",
+    "joints",
+    "orientation",
+    "path",
+    "phase_and_kernels",
+    "poster",
+    "still",
+]
 
 _WIDE = 9.0  # inches: text is then as large as the page's, on the screen and on paper
 _TIMES = 400
@@ -47,16 +58,36 @@ def coordinates(run: RunFolder) -> str:
     return plot.svg(page)
 
 
-def rotation(run: RunFolder) -> str:
-    """Draw the nine entries of the rotation matrix over time: they have no jump, whatever the motion."""
-    page = plot.figure(_WIDE, 5.0)
-    spaces = {"left": 0.07, "right": 0.98, "top": 0.93, "bottom": 0.09, "wspace": 0.28}
-    cells = page.subplots(3, 3, sharex=True, gridspec_kw=spaces)
+def orientation(run: RunFolder) -> str:
+    """Draw the angle turned since the start, whole turns counted, and the lean of the tool's z axis."""
+    page = plot.figure(_WIDE, 4.0)
+    spaces = {"left": 0.09, "right": 0.985, "top": 0.92, "bottom": 0.12}
+    above, below = page.subplots(2, 1, sharex=True, gridspec_kw=spaces)
     time, original, imitated = _motions(run)
-    rotations = {name: pose[:, :3, :3] for name, pose in imitated.items()}
-    plot.rotation_entries(cells, time, original[:, :3, :3], rotations)
-    _legend(page, cells[0][0])
+    turned, lean = (
+        (shown(original), {name: shown(pose) for name, pose in imitated.items()}) for shown in (_turned, _lean)
+    )
+    plot.coordinates((above,), time, turned[0], turned[1], ("turned [deg]",))
+    plot.coordinates((below,), time, lean[0], lean[1], ("z from upright [deg]",))
+    above.set_xlabel("")
+    _legend(page, above)
     return plot.svg(page)
+
+
+def _turned(pose: Array) -> Array:
+    """Return how far the poses (T, 4, 4) have turned since the first, (T, 1) deg; the small steps decide on turns."""
+    since = Rotation.from_matrix(np.swapaxes(pose[:1, :3, :3], 1, 2) @ pose[:, :3, :3]).as_rotvec()
+    vectors = [since[0]]
+    for vector in since[1:]:
+        angle = float(np.linalg.norm(vector))
+        axis = vector / angle if angle > 1e-9 else vector
+        turns = np.round((vectors[-1] @ axis - angle) / (2 * np.pi)) if angle > 1e-9 else 0.0
+        vectors.append(vector + 2 * np.pi * turns * axis)
+    return np.degrees(np.linalg.norm(vectors, axis=1))[:, None]
+
+
+def _lean(pose: Array) -> Array:
+    return np.degrees(np.arccos(np.clip(pose[:, 2, 2], -1.0, 1.0)))[:, None]
 
 
 def errors(run: RunFolder) -> str:
@@ -123,21 +154,28 @@ def demonstrations(run: RunFolder) -> str:
 
 def still(run: RunFolder) -> str:
     """Draw the arm at the start, half-way and at the end, beside the path: for paper, where nothing moves."""
+    return _drawn_arm(run, (0, len(run.record.executed_time) // 2, -1), "The arm at three moments")
+
+
+def poster(run: RunFolder) -> str:
+    """Draw the arm half-way: what stands where it will move, until it does."""
+    return _drawn_arm(run, (len(run.record.executed_time) // 2,), "The arm half-way")
+
+
+def _drawn_arm(run: RunFolder, moments: tuple[int, ...], alt: str) -> str:
     record = run.record
     hand, tool = record.demonstrated_pose[:, :3, 3], record.executed_pose[:, :3, 3]
-    moments = [0, len(record.executed_time) // 2, -1]
-    shapes = triangles(record.arm, record.executed_joints[moments])
-    page = plot.figure(_WIDE, 4.0)
+    shapes = triangles(record.arm, record.executed_joints[list(moments)])
+    page = plot.figure(_WIDE if len(moments) > 1 else 5.0, 4.0)
+    share = 0.96 / len(moments)
     for k, (moment, shape) in enumerate(zip(moments, shapes, strict=True)):
-        axes = page.add_axes((0.32 * k, 0.12, 0.32, 0.76), projection="3d", facecolor="none")
+        axes = page.add_axes((share * k, 0.12, share, 0.76), projection="3d", facecolor="none")
         plot.shape(axes, shape, around=np.concatenate([shapes.reshape(-1, 3), hand, tool]))
         axes.plot(*hand[_few(len(hand))].T, color="#E69F00", linewidth=2.4, zorder=3, label="demonstrated")
         axes.plot(*tool[_few(len(tool))].T, color="#1A1A1A", linewidth=1.0, zorder=4, label="executed")
         axes.set_title(f"{record.executed_time[moment]:.2f} s", fontsize=9, y=1.03)
     _legend(page, axes)
-    return (
-        f'<img alt="The arm at three moments" src="data:image/png;base64,{base64.b64encode(plot.png(page)).decode()}">'
-    )
+    return f'<img alt="{alt}" src="data:image/png;base64,{base64.b64encode(plot.png(page)).decode()}">'
 
 
 def _motions(run: RunFolder) -> tuple[Array, Array, dict[str, Array]]:

@@ -35,7 +35,25 @@ tr.unjudged td { color: var(--doubt); font-weight: 600; }
 figure { margin: 0; }
 figure svg { width: 100%; height: auto; display: block; }
 figcaption { color: var(--faint); font-size: .87rem; }
-iframe { width: 100%; height: 33rem; border: 1px solid var(--line); border-radius: .4rem; background: #fff; }
+.first { display: grid; grid-template-columns: minmax(0, 1fr) 17rem; gap: 1rem; margin-top: .8rem; }
+.first p { color: var(--faint); font-size: .87rem; }
+.stage { position: relative; height: min(33rem, calc(100vh - 14rem)); min-height: 20rem; }
+.stage iframe, .poster { position: absolute; inset: 0; width: 100%; height: 100%; border: 1px solid var(--line);
+  border-radius: .4rem; background: #fff; }
+.poster { display: flex; align-items: center; justify-content: center; z-index: 1; pointer-events: none; }
+.poster img { max-width: 100%; max-height: 100%; }
+.drawn .poster { display: none; }
+.tiles { display: flex; flex-direction: column; gap: .7rem; }
+.tile { border: 1px solid var(--line); border-radius: .4rem; padding: .55rem .8rem; }
+.tile span, .tile small { display: block; color: var(--faint); font-size: .82rem; line-height: 1.3; }
+.tile b { font-size: 1.25rem; overflow-wrap: anywhere; }
+details { margin: .3rem 0; }
+summary { cursor: pointer; }
+summary.failed { color: var(--bad); }
+summary.unjudged { color: var(--doubt); }
+.command { display: flex; gap: .6rem; align-items: start; }
+.command pre { flex: 1; margin: 0; }
+@media (max-width: 55rem) { .first { grid-template-columns: minmax(0, 1fr); } }
 pre { background: #f4f6f8; padding: .8rem 1rem; overflow-x: auto; font-size: .84rem; border-radius: .4rem; }
 figure img { width: 100%; height: auto; display: block; }
 .paper { display: none; }
@@ -47,12 +65,27 @@ figure img { width: 100%; height: auto; display: block; }
   h2 { margin-top: 1.4rem; break-after: avoid; }
   tr, figure { break-inside: avoid; }
   .wide { overflow: visible; }
-  .screen { display: none; }
+  .screen, button { display: none; }
   .paper { display: block; }
+  .first { display: block; }
+  .tiles { flex-flow: row wrap; }
+  .tile { flex: 1 1 40%; }
   section { break-inside: avoid; }
-  #verdict, #repeat, #history { break-inside: auto; }
+  #checks, #repeat, #history { break-inside: auto; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 }
+"""
+
+
+# The poster goes once the frame has drawn: viser draws into a canvas, and says nothing of it.
+_SCRIPT = """
+const stage = document.querySelector(".stage"), started = Date.now();
+const watch = setInterval(() => {
+  const canvas = stage.querySelector("iframe").contentDocument?.querySelector("canvas");
+  if (canvas && canvas.clientWidth) { setTimeout(() => stage.classList.add("drawn"), 1500); clearInterval(watch); }
+  if (Date.now() - started > 20000) { stage.classList.add("drawn"); clearInterval(watch); }
+}, 200);
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(each => each.open = true));
 """
 
 
@@ -61,9 +94,9 @@ def html(run: RunFolder) -> str:
     recording = run.summary["recording"]
     title = f"{recording['source']} ({recording['body']}) on {run.summary['arm']}"
     parts = (
-        sections.verdict,
+        sections.first_screen,
+        sections.checks,
         sections.stages,
-        sections.scene,
         sections.pictures,
         sections.history,
         sections.fitting,
@@ -74,5 +107,5 @@ def html(run: RunFolder) -> str:
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,">'
         f"<title>{escape(title)}</title><style>{_STYLE}</style></head>\n"
-        f"<body><h1>{escape(title)}</h1>\n{body}\n</body></html>\n"
+        f"<body><h1>{escape(title)}</h1>\n{body}\n<script>{_SCRIPT}</script></body></html>\n"
     )

@@ -8,11 +8,15 @@ from html import escape
 from typing import Any
 
 from dmpcpp import _core
+from dmpcpp._check_words import GROUPS, OTHERS, figure, figures_of, group_of, words_of
 from dmpcpp.show.report import _figures as figures
 from dmpcpp.show.report._run_folder import RunFolder, result_of
 from dmpcpp.show.scene import replay_page
 
-__all__ = ["fitting", "history", "pictures", "repeat", "scene", "stages", "verdict"]
+__all__ = ["checks", "first_screen", "fitting", "history", "pictures", "repeat", "stages"]
+
+_COPY = '<button onclick="navigator.clipboard.writeText(this.previousElementSibling.textContent)">copy</button>'
+_CHECK_TITLES = ("", "what", "found", "allowed", "where", "check")
 
 _STAGES = {
     "demonstration_to_dmp": "demonstration → DMP",
@@ -27,9 +31,10 @@ _CAPTIONS = (
         "Over the executed motion's time; the demonstration is stretched to it.",
     ),
     (
-        "Rotation over time",
-        figures.rotation,
-        "The entries of the rotation matrix of hand and tool in the arm's base frame.",
+        "Orientation over time",
+        figures.orientation,
+        "Above: how far hand and tool have turned since the start, whole turns counted. Below: how far the z axis of "
+        "both leans from upright.",
     ),
     ("Errors of every stage", figures.errors, "The largest of each short stretch, on logarithmic axes."),
     (
@@ -50,17 +55,43 @@ _CAPTIONS = (
 )
 
 
-def verdict(run: RunFolder) -> str:
-    """Say what came of it, with every check."""
-    summary = run.summary
+def first_screen(run: RunFolder) -> str:
+    """Say what came of it, show the arm moving, and give the four figures that a person wants."""
     word, kind = _word(run)
-    said = _said(run)
-    how = f"{summary['arm']}, {summary['simulator']}, {summary['mode']} ({summary['caveat']})."
-    rows = sorted(map(_check_row, summary["checks"]), key=lambda row: row[0] == "ok")
-    table = _table(("", "check", "value", "limit", "unit", "where"), rows, "checks")
+    tiles = "".join(
+        f'<div class="tile"><span>{escape(each.title)}</span><b>{escape(each.number)}</b>'
+        f"<small>{escape(each.line)}</small></div>"
+        for each in figures_of(run.summary)
+    )
     return (
-        f'<section id="verdict"><p class="verdict {kind}"><b>{word}</b>: {escape(said)}.</p>'
-        f"<p>{escape(_figures_of(summary))}</p><p>{escape(how)}</p>{_caveats(summary)}{table}</section>"
+        f'<section id="verdict"><p class="verdict {kind}"><b>{word}</b>: {escape(_said(run))}.</p></section>'
+        f'<div class="first">{_scene(run)}<div class="tiles">{tiles}</div></div>'
+    )
+
+
+def checks(run: RunFolder) -> str:
+    """List what was checked: a line a group, what did not hold in the open, all of it folded behind."""
+    summary = run.summary
+    how = f"{summary['arm']}, {summary['simulator']}, {summary['mode']} ({summary['caveat']})."
+    open_ones = [check for check in summary["checks"] if result_of(check) != "holds"]
+    parts = [_table(_CHECK_TITLES, map(_check_row, open_ones), "checks")] if open_ones else []
+    groups: dict[str, list[dict[str, Any]]] = {}
+    for check in summary["checks"]:
+        groups.setdefault(group_of(check["name"]), []).append(check)
+    parts += [_group(name, groups[name]) for name in (*GROUPS, OTHERS) if name in groups]
+    return (
+        f'<section id="checks"><h2>What was checked</h2><p>{escape(_figures_of(summary))}</p>'
+        f"<p>{escape(how)}</p>{_caveats(summary)}{''.join(parts)}</section>"
+    )
+
+
+def _group(name: str, checks: Sequence[dict[str, Any]]) -> str:
+    held = sum(result_of(check) == "holds" for check in checks)
+    kind = "held" if held == len(checks) else "failed" if "fails" in map(result_of, checks) else "unjudged"
+    rows = sorted(map(_check_row, checks), key=lambda row: row[0] == "ok")
+    return (
+        f'<details><summary class="{kind}"><b>{escape(name)}</b>: {held} of {len(checks)} hold</summary>'
+        f"{_table(_CHECK_TITLES, rows, 'checks')}</details>"
     )
 
 
@@ -101,7 +132,8 @@ def _figures_of(summary: dict[str, Any]) -> str:
 def _check_row(check: dict[str, Any]) -> tuple[str, ...]:
     when = "" if check.get("time") is None else f"{check['time']:.2f} s "
     mark = {"holds": "ok", "fails": "FAIL"}.get(result_of(check), "not judged")
-    return mark, check["name"], _number(check["value"]), _number(check["limit"]), check["unit"], when + check["detail"]
+    value, limit = (figure(check[which], check["unit"], check["name"]) for which in ("value", "limit"))
+    return mark, words_of(check["name"]), value, limit, when + check["detail"], check["name"]
 
 
 def stages(run: RunFolder) -> str:
@@ -115,8 +147,8 @@ def stages(run: RunFolder) -> str:
     return f'<section id="stages"><h2>Errors</h2>{_table(titles, rows, "numbers")}</section>'
 
 
-def scene(run: RunFolder) -> str:
-    """Play the motion: the arm beside the demonstrated hand path."""
+def _scene(run: RunFolder) -> str:
+    """Play the motion: the arm beside the demonstrated hand path; a picture stands there until the first frame."""
     record = run.record
     page = replay_page(
         record.arm,
@@ -127,8 +159,8 @@ def scene(run: RunFolder) -> str:
         demonstrated=record.demonstrated_pose,
     )
     return (
-        '<section id="scene"><h2>The motion</h2>'
-        f'<iframe class="screen" title="The arm replays the motion" srcdoc="{escape(page)}"></iframe>'
+        f'<section id="scene"><div class="stage screen"><div class="poster">{figures.poster(run)}</div>'
+        f'<iframe title="The arm replays the motion" srcdoc="{escape(page)}"></iframe></div>'
         f'<figure class="paper">{figures.still(run)}</figure>'
         "<p>Orange: the demonstrated hand and its path. Black: the path of the tool, as executed. "
         '<span class="screen">Drag to turn, scroll to come nearer. </span>'
@@ -190,7 +222,10 @@ def repeat(run: RunFolder) -> str:
         said = "<p>This run was made from Python; the files beside this page hold its results.</p>"
     else:
         command = next((line.strip("# ") for line in run.config.splitlines() if "--config" in line), "")
-        said = f"<pre>{escape(command)}</pre><p>config.toml, beside this page:</p><pre>{escape(run.config)}</pre>"
+        said = (
+            f'<div class="command"><pre>{escape(command)}</pre>{_COPY}</div>'
+            f"<p>config.toml, beside this page:</p><pre>{escape(run.config)}</pre>"
+        )
     return (
         f'<section id="repeat"><h2>How to repeat</h2>{said}<p>dmpcpp {version}. This page is made anew from the files '
         "beside it by <code>dmpcpp report</code>.</p></section>"
