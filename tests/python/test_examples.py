@@ -5,7 +5,7 @@ import pytest
 from click.testing import CliRunner
 from dmpcpp import examples, recordings
 from dmpcpp.cli import main
-from dmpcpp.errors import FileError, InvalidArgument
+from dmpcpp.errors import InvalidArgument
 
 WRITTEN = sorted(set(examples.EXAMPLES) - {"log"})
 
@@ -30,7 +30,7 @@ def test_the_list_names_every_example_and_its_files():
 def test_a_file_with_other_contents_is_replaced_only_when_asked(tmp_path):
     path = tmp_path / "reach.bvh"
     path.write_text("mine")
-    with pytest.raises(FileError, match=r"reach\.bvh: is there already with other contents\. Replace it with"):
+    with pytest.raises(InvalidArgument, match=r"reach\.bvh: is there already with other contents\. Replace it with"):
         examples.write("reach", tmp_path)
     assert path.read_text() == "mine"
     examples.write("reach", tmp_path, overwrite=True)
@@ -38,10 +38,17 @@ def test_a_file_with_other_contents_is_replaced_only_when_asked(tmp_path):
     examples.write("reach", tmp_path)  # the same contents are no conflict
 
 
+def test_the_command_names_the_option_that_replaces(tmp_path):
+    (tmp_path / "reach.bvh").write_text("mine")
+    done = CliRunner().invoke(main, ["example", "reach", "--out", str(tmp_path)])
+    assert done.exit_code == 2 and "Replace it with --overwrite." in done.output
+    assert CliRunner().invoke(main, ["example", "reach", "--out", str(tmp_path), "--overwrite"]).exit_code == 0
+
+
 def test_one_take_that_is_in_the_way_leaves_the_others_unwritten(tmp_path):
     (tmp_path / "takes").mkdir()
     (tmp_path / "takes" / "reach_3.csv").write_text("mine")
-    with pytest.raises(FileError):
+    with pytest.raises(InvalidArgument):
         examples.write("takes", tmp_path)
     assert [path.name for path in (tmp_path / "takes").iterdir()] == ["reach_3.csv"]
 
@@ -52,7 +59,7 @@ def test_one_take_that_is_in_the_way_leaves_the_others_unwritten(tmp_path):
         (["nothing"], ["'nothing'", "reach, takes"]),
         (["log"], ["--run", "missing"]),
         (["reach", "--run", "somewhere"], ["--run", "somewhere"]),
-        (["log", "--run", "nowhere"], ["joints.csv", "dmpcpp example reach"]),
+        (["log", "--run", "nowhere"], ["joints.csv", "folder of a verified run"]),
     ],
 )
 def test_what_cannot_be_written_says_what_to_do(arguments, words, tmp_path):

@@ -1,12 +1,14 @@
 """Inspection: what is told of a recording is what is in it, and what is missing is asked for."""
 
+import itertools
 import json
+import shlex
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-from dmpcpp import motion
+from dmpcpp import examples, motion
 from dmpcpp.inspection import inspect
 from dmpcpp.recordings import Recording
 from scipy.spatial.transform import Rotation
@@ -138,6 +140,17 @@ def test_the_command_says_ready_and_leaves_with_0(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     assert "ready to be learned" in done.stdout and "not ready" not in done.stdout
     assert "moves over 400 200 200 mm in x, y, z" in done.stdout
+
+
+def test_the_command_proposes_what_comes_next_with_what_was_stated(tmp_path):
+    examples.write("reach", tmp_path)
+    done = run(tmp_path / "reach.bvh", "--unit", "cm", "--body", "RightHand", "--keep-outliers")
+    proposed = shlex.split(done.stdout.splitlines()[-1].removeprefix("next: "))
+    assert proposed[:3] == ["dmpcpp", "imitate", str(tmp_path / "reach.bvh")]
+    assert {"--unit cm", "--body RightHand", "--keep-outliers --arm", "--out reach"} <= {
+        " ".join(pair) for pair in itertools.pairwise(proposed)
+    }
+    assert "next:" not in run(tmp_path / "reach.bvh").stdout  # not while something is to be stated
 
 
 def test_the_command_leaves_with_3_while_something_is_to_be_stated(tmp_path):

@@ -9,6 +9,18 @@ from click.shell_completion import CompletionItem
 
 from dmpcpp import examples
 
+_NEXT = {
+    "reach": "dmpcpp imitate reach.bvh --body RightHand --unit cm --arm panda --out reach",
+    "takes": "dmpcpp fit takes/reach_1.csv takes/reach_2.csv takes/reach_3.csv --arm panda --out takes.json",
+    "session": "dmpcpp imitate session.csv --segment 2 --arm panda --out second",
+    "stir": "dmpcpp imitate stir.csv --arm panda --out stir",
+    "screw": "dmpcpp imitate screw.csv --arm panda --out screw",
+    "phone": "dmpcpp imitate phone.csv --arm panda --out phone",
+    "lift": "dmpcpp imitate lift.trc --markers WRIST,STYLr,STYLu --up-axis z --arm panda --out lift",
+    "robot": "dmpcpp check-urdf my_robot.urdf",
+    "log": "dmpcpp verify reach log.csv --arm panda",
+}
+
 
 class _Name(click.types.StringParamType):
     """The name of an example; completed by the shell, checked where it is written."""
@@ -41,4 +53,4 @@ def example(name: str | None, out: Path, run: Path | None, overwrite: bool) -> N
         return
     for path in examples.write(name, out, run=run, overwrite=overwrite):
         click.echo(f"written: {path}")
-    click.echo(f"next: {examples.EXAMPLES[name].next}")
+    click.echo(f"next: {_NEXT[name]}")

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from dmpcpp._notes import Note
 from dmpcpp.cli._flags import flag, in_flags
@@ -58,6 +60,22 @@ def inspect(file: Path, plot: str | None, as_json: bool, **options: Any) -> None
         _draw(file, found, plot, stated)
     if not found.ok:
         sys.exit(FAILED)
+    if not as_json:
+        click.echo(f"next: {_next_command(file)}")
+
+
+def _next_command(file: Path) -> str:
+    """Return the command that carries the recording out, with what was stated here."""
+    context = click.get_current_context()
+    words = ["dmpcpp", "imitate", str(file)]
+    for option in context.command.params:
+        name = option.name or ""
+        typed = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+        if isinstance(option, click.Option) and typed and name not in ("plot", "as_json"):
+            values = context.params[name]
+            for value in values if isinstance(values, tuple) else (values,):
+                words += [option.opts[0]] if option.is_flag else [option.opts[0], str(value)]
+    return shlex.join([*words, "--arm", "panda", "--out", file.stem])
 
 
 def _draw(file: Path, found: Inspection, plot: str, stated: dict[str, Any]) -> None:

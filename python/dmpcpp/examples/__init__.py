@@ -27,15 +27,12 @@ class Example:
         What is in it.
     files : tuple of str
         The files that are written, relative to the folder.
-    next : str
-        A command that does something with it.
     texts : callable
         Returns the files' contents.
     """
 
     what: str
     files: tuple[str, ...]
-    next: str
     texts: Callable[[], tuple[str, ...]] = dataclasses.field(repr=False)
 
 
@@ -63,9 +60,9 @@ def write(
     Raises
     ------
     InvalidArgument
-        The name is unknown, or `run` does not go with it.
+        The name is unknown, `run` does not go with it, or a file is there with other contents.
     FileError
-        A file is there with other contents, a folder cannot be written, or the run has no joints.
+        A folder cannot be written, or the run has no joints.
     """
     if name not in EXAMPLES:
         raise InvalidArgument(f"name: '{name}', expected one of {', '.join(EXAMPLES)}.")
@@ -77,7 +74,7 @@ def write(
     paths = tuple(Path(folder) / file for file in example.files)
     for path, text in zip(paths, texts, strict=True):
         if path.exists() and not overwrite and (path.is_dir() or path.read_bytes() != text.encode()):
-            raise FileError(f"{path}: is there already with other contents. Replace it with --overwrite.")
+            raise InvalidArgument(f"{path}: is there already with other contents. Replace it with overwrite=True.")
     for path, text in zip(paths, texts, strict=True):
         _make(path.parent)
         write_text(path, text)
@@ -108,55 +105,46 @@ EXAMPLES: dict[str, Example] = {
     "reach": Example(
         "a reach of a right arm, motion capture, lengths in cm",
         ("reach.bvh",),
-        "dmpcpp imitate reach.bvh --body RightHand --unit cm --arm panda --out reach",
         lambda: (_bvh.reach(),),
     ),
     "takes": Example(
         "three takes of one reach",
         ("takes/reach_1.csv", "takes/reach_2.csv", "takes/reach_3.csv"),
-        "dmpcpp fit takes/reach_1.csv takes/reach_2.csv takes/reach_3.csv --arm panda --out takes.json",
         _takes,
     ),
     "session": Example(
         "five reaches with rests between them",
         ("session.csv",),
-        "dmpcpp imitate session.csv --segment 2 --arm panda --out second",
         lambda: (_table(_motions.session()),),
     ),
     "stir": Example(
         "a hand that goes to a pot, stirs six rounds and stops",
         ("stir.csv",),
-        "dmpcpp imitate stir.csv --arm panda --out stir",
         lambda: (_table(_motions.stir()),),
     ),
     "screw": Example(
         "a hand that turns a lid by one and a half turns",
         ("screw.csv",),
-        "dmpcpp imitate screw.csv --arm panda --out screw",
         lambda: (_table(_motions.screw()),),
     ),
     "phone": Example(
         "the log of a phone: stamps in ms that jitter, samples lost",
         ("phone.csv",),
-        "dmpcpp imitate phone.csv --arm panda --out phone",
         lambda: (_table(_motions.phone(), time="timestamp_ms", scale=1e3),),
     ),
     "lift": Example(
         "three markers on a wrist, motion capture, z up",
         ("lift.trc",),
-        "dmpcpp imitate lift.trc --markers WRIST,STYLr,STYLu --up-axis z --arm panda --out lift",
         lambda: (_markers.lift(),),
     ),
     "robot": Example(
         "an arm of your own: six joints, as a URDF",
         ("my_robot.urdf",),
-        "dmpcpp check-urdf my_robot.urdf",
         lambda: (_robot.my_robot(),),
     ),
     "log": Example(
-        "what a robot would have recorded of a run (--run FOLDER)",
+        "what a robot would have recorded of a run",
         ("log.csv",),
-        "dmpcpp verify reach log.csv --arm panda",
         lambda: (),
     ),
 }

@@ -29,10 +29,7 @@ def robot_log(run: str | Path) -> str:
     """
     source = Path(run) / "joints.csv"
     if not source.is_file():
-        raise FileError(
-            f"{source}: not found, expected the folder of a verified run. Make one first: dmpcpp example reach; "
-            "dmpcpp imitate reach.bvh --body RightHand --unit cm --arm panda --out reach"
-        )
+        raise FileError(f"{source}: not found, expected the folder of a verified run.")
     plan = export.read_joints(source)
     generator = np.random.default_rng(_SEED)
     clock = np.arange(0.0, plan.time[-1] - plan.time[0] + 2 * _BEFORE, 1 / _RATE)
