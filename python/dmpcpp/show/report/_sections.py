@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
@@ -221,7 +222,7 @@ def repeat(run: RunFolder) -> str:
     if not run.config:
         said = "<p>This run was made from Python; the files beside this page hold its results.</p>"
     else:
-        command = next((line.strip("# ") for line in run.config.splitlines() if "--config" in line), "")
+        command = next(iter(re.findall(r"To repeat: (.+)", run.config)), "")
         said = (
             f'<div class="command"><pre>{escape(command)}</pre>{_COPY}</div>'
             f"<p>config.toml, beside this page:</p><pre>{escape(run.config)}</pre>"
