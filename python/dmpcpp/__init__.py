@@ -5,7 +5,8 @@ The core (``Dmp``, ``OrientationDmp``, ``PoseDmp`` and their runs, ``so3``, mode
 (files), ``motion`` (cleaning, cutting, noise), ``learning``, ``arms`` and ``urdf_check`` (robots), ``retarget``
 (placement), ``planning``, ``simulation``, ``imitation`` (the whole flow), ``export``, ``verification`` (logs of real
 arms), ``checks``, ``metrics``, ``comparison``, ``plot``, ``view``, ``scene`` and ``report`` (pictures), ``batch``,
-``generality`` and ``reproduction`` (many runs), ``grasp``, ``doctor`` (the installation), and ``errors``.
+``generality`` and ``reproduction`` (many runs), ``grasp``, ``examples`` (small recordings to try), ``doctor`` (the
+installation), and ``errors``.
 Times are in s, lengths in m, angles in rad; arrays are float64.
 """
 
@@ -24,6 +25,7 @@ _MODULES = frozenset(
         "comparison",
         "doctor",
         "errors",
+        "examples",
         "export",
         "generality",
         "grasp",
