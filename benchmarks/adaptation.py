@@ -394,8 +394,12 @@ def propulsion(path: Path) -> Iterator[Figure]:
     for name in ("GloveR1", "GloveL1"):
         seen = markers.chosen([name])
         kept = np.isfinite(seen.position[:, 0]).all(axis=1)
-        found = dmpcpp.find_cycle(Demonstration(seen.time[kept], seen.position[kept, 0]))
-        yield Figure(f"wheelchair, {name}: left by one cycle, of the RMS", 100 * found.unexplained, 5.0, "%")
+        grid, path = seen.time[kept], seen.position[kept, 0]
+        found = dmpcpp.find_cycle(Demonstration(grid, path))
+        line = np.c_[np.ones(len(grid)), grid]
+        moved = _rms(path - line @ np.linalg.lstsq(line, path, rcond=None)[0])
+        left = 100 * found.unexplained * moved / float(np.linalg.norm(np.ptp(path, axis=0)))
+        yield Figure(f"wheelchair, {name}: left by one cycle, RMS of the range", left, 3.5, "%")
 
 
 def _risen(model: PoseDmp, pose: Array) -> PoseRun:

@@ -12,7 +12,8 @@ import pytest
 from dmpcpp import InvalidArgument
 
 FOLDER = Path(__file__).parents[1] / "data" / "models"
-GOLDEN = sorted(path for path in FOLDER.glob("v*/*.json") if path.name != "motions.json")
+SEQUENCES = sorted(FOLDER.glob("v*/*_sequence.json"))
+GOLDEN = sorted(path for path in FOLDER.glob("v*/*.json") if path.name != "motions.json" and path not in SEQUENCES)
 SCHEMA = (Path(__file__).parents[2] / "docs" / "model-file.md").read_text()
 
 
@@ -39,6 +40,15 @@ def test_a_golden_file_means_the_motion_it_always_meant(path):
     plan = dmpcpp.load(path).rollout_at(np.linspace(0.0, 2.0, 5), duration=2.0)
     place = next(getattr(plan, name) for name in ("pose", "rotation", "position") if hasattr(plan, name))
     np.testing.assert_allclose(place, expected, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("path", SEQUENCES, ids=names(SEQUENCES))
+def test_a_golden_sequence_loads_bit_for_bit_and_means_the_motion_it_always_meant(path):
+    loaded = dmpcpp.load(path)
+    assert dmpcpp.to_json(loaded) == path.read_text()
+    expected = json.loads((path.parent / "motions.json").read_text())[path.stem]
+    moved = loaded.rollout_at(np.linspace(0.0, 8.0, 9)).pose
+    np.testing.assert_allclose(moved, expected, rtol=0, atol=1e-8)
 
 
 def test_every_enumerator_stands_in_a_golden_file_and_in_the_schema():

@@ -42,6 +42,12 @@ WRONG = {
     "a goal in words": ((*PLAN, "--goal", "there"), "--goal", "there", "such as"),
     "a goal that is not finite": ((*PLAN, "--goal", "nan,0,0"), "--goal", "nan,0,0", "finite"),
     "a goal with no quaternion": ((*PLAN, "--goal", "0,0,0,1,1,1,1"), "--goal", "2.000", "expected 1"),
+    "cycles of what does not repeat": (
+        ("imitate", "hand.npz", "--cycles", "3"),
+        "--cycles",
+        "without --rhythmic",
+        "State",
+    ),
     "a via-point without a phase": ((*PLAN, "--via", "0.4,0,0.5"), "--via", "0.4,0,0.5", "such as 0.5:0.4,0.1,0.3"),
     "a via-point of two numbers": ((*PLAN, "--via", "0.5:1,2"), "--via", "2 number(s)", "x,y,z"),
     "a via-point at the end": ((*PLAN, "--via", "1:0.4,0,0.5"), "via[0].phase", "1, expected", "0.99"),

@@ -36,7 +36,7 @@ class DMP_EXPORT GaussianBasis {
   static GaussianBasis periodic(int count, double overlap);
 
   int count() const noexcept { return count_; }
-  bool is_periodic() const noexcept { return round_; }
+  bool is_periodic() const noexcept { return round_ > 0.0; }
   double alpha_x() const noexcept { return alpha_x_; }
   /// (N) centers c_i in x.
   Eigen::VectorXd centers() const;
@@ -64,16 +64,16 @@ class DMP_EXPORT GaussianBasis {
 
   GaussianBasis(int count, double alpha_x);
   Place place(double s) const noexcept;
-  double spacings(double s) const noexcept;
   PhasePair pair(double s, double next, int middle) const noexcept;
   Window equal_in_time_window(double s, double* psi) const noexcept;
+  Window round_window(double s, double* psi) const noexcept;
   Window source_window(double s, double* psi) const noexcept;
 
   int count_;
   double alpha_x_;
-  double overlap_ = 0.0;  // 0: the source's kernels
+  double overlap_ = 0.0;  // 0: the source's kernels, or periodic ones
   int reach_ = 0;         // kernels to either side that count
-  bool round_ = false;    // periodic
+  double round_ = 0.0;    // overlap of periodic kernels; else 0
   int capacity_ = 0;
   std::vector<double> table_;   // exp(-overlap k^2), k = 0 .. reach
   std::vector<double> center_;  // the source's c_i

@@ -52,11 +52,11 @@ std::vector<typename Space::Trajectory> rollout_each(const Primitive<Space>& mod
                                                      const std::vector<typename Space::Point>& goals,
                                                      const Eigen::VectorXd& durations, Eigen::Index samples,
                                                      int threads = 1) {
-  using Motion = typename Space::Trajectory;
-  std::vector<Motion> motions(std::max(goals.size(), static_cast<std::size_t>(durations.size())));
+  using Result = typename Space::Trajectory;
+  std::vector<Result> motions(std::max(goals.size(), static_cast<std::size_t>(durations.size())));
   model.rollout_each(
       goals, durations, samples,
-      [&](Eigen::Index m, const Motion& motion) { motions[static_cast<std::size_t>(m)] = motion; }, threads);
+      [&](Eigen::Index m, const Result& motion) { motions[static_cast<std::size_t>(m)] = motion; }, threads);
   return motions;
 }
 

@@ -40,8 +40,8 @@ class DMP_EXPORT ForcingTerm {
 
   /// The row of a kernel, of periodic ones with their neighbours round the cycle on both sides.
   const double* row(int kernel) const noexcept {
-    return basis_.round_ ? round_.data() + (kernel + basis_.reach_) * round_.cols()
-                         : weights_.data() + kernel * weights_.cols();
+    return basis_.is_periodic() ? round_.data() + (kernel + basis_.reach_) * round_.cols()
+                                : weights_.data() + kernel * weights_.cols();
   }
 
   GaussianBasis basis_;

@@ -61,7 +61,8 @@ GaussianBasis GaussianBasis::periodic(int count, double overlap) {
     throw InvalidArgument("basis_count: " + std::to_string(count) +
                           ", expected 4 or more kernels round a cycle.");
   GaussianBasis basis = equal_in_time(count, 1.0, overlap);
-  basis.round_ = true;
+  basis.round_ = basis.overlap_;
+  basis.overlap_ = 0.0;
   basis.alpha_x_ = 0.0;
   basis.reach_ = std::min(basis.reach_, (count - 1) / 2);
   basis.capacity_ = 2 * basis.reach_ + 1;
@@ -81,13 +82,13 @@ GaussianBasis GaussianBasis::source(int count, double alpha_x) {
 }
 
 Eigen::VectorXd GaussianBasis::centers() const {
-  if (count_ == 1 || round_) return Eigen::VectorXd::Ones(count_);
+  if (count_ == 1 || is_periodic()) return Eigen::VectorXd::Ones(count_);
   return (-alpha_x_ * Eigen::VectorXd::LinSpaced(count_, 0.0, 1.0)).array().exp();
 }
 
 GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi) const noexcept {
   const Place at = place(s);
-  const double offset = spacings(s) - at.middle;
+  const double offset = s * (count_ - 1) - at.middle;
   const double up = std::exp(std::clamp(2.0 * overlap_ * offset, kSmallestExponent, -kSmallestExponent));
   double* const middle = psi + at.below;
   *middle = 1.0;
@@ -97,6 +98,21 @@ GaussianBasis::Window GaussianBasis::equal_in_time_window(double s, double* psi)
   power = 1.0;
   for (int k = 1; k <= at.below; ++k) middle[-k] = (power *= down) * table_[static_cast<std::size_t>(k)];
   return {at.middle - at.below, at.below + at.above + 1, -overlap_ * offset * offset};
+}
+
+GaussianBasis::Window GaussianBasis::round_window(double s, double* psi) const noexcept {
+  const double u = (s - std::floor(s)) * count_;
+  const int nearest = u >= 0.0 ? static_cast<int>(u + 0.5) : 0;  // 0 for what is not a number, too
+  const double offset = u - nearest;
+  const double up = std::exp(2.0 * round_ * offset);
+  double* const middle = psi + reach_;
+  *middle = 1.0;
+  double above = 1.0, below = 1.0;
+  for (int k = 1; k <= reach_; ++k) {
+    middle[k] = (above *= up) * table_[static_cast<std::size_t>(k)];
+    middle[-k] = (below /= up) * table_[static_cast<std::size_t>(k)];
+  }
+  return {nearest - reach_, capacity_, -round_ * offset * offset};
 }
 
 GaussianBasis::Window GaussianBasis::source_window(double s, double* psi) const noexcept {
@@ -112,7 +128,8 @@ GaussianBasis::Window GaussianBasis::source_window(double s, double* psi) const 
 }
 
 GaussianBasis::Window GaussianBasis::proportional(double s, double* psi) const noexcept {
-  return overlap_ > 0.0 ? equal_in_time_window(s, psi) : source_window(s, psi);
+  if (overlap_ > 0.0) return equal_in_time_window(s, psi);
+  return is_periodic() ? round_window(s, psi) : source_window(s, psi);
 }
 
 GaussianBasis::Window GaussianBasis::activations(double s, double* psi) const noexcept {

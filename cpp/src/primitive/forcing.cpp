@@ -39,7 +39,7 @@ ForcingTerm::ForcingTerm(const GaussianBasis& basis, const RowMatrix& weights)
                           " kernels.");
   if (weights.cols() == 0 || !weights.allFinite())
     throw InvalidArgument("weights: empty or not finite, expected finite numbers (N x dims).");
-  if (!basis.round_) return;
+  if (!basis.is_periodic()) return;
   const Index n = weights.rows();
   const Index reach = basis.reach_;
   round_.resize(n + 1 + 2 * reach, weights.cols());
@@ -57,7 +57,7 @@ void ForcingTerm::evaluate_side_by_side(const GaussianBasis::Place& at, double s
   const Pair up = pair.ratio;
   const Pair down = up.inverse();
   const double* const table = basis_.table_.data();
-  const double* const middle = row(at.middle);
+  const double* const middle = weights_.data() + at.middle * Axes;
   std::array<Pair, Axes> sum;
   for (int d = 0; d < Axes; ++d) sum[d] = Pair::Constant(middle[d]);
   Pair total = Pair::Ones();

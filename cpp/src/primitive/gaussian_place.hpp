@@ -17,24 +17,15 @@ inline constexpr double kLargestOverlap = 300.0;
 // x of less counts as zero, so that nothing it is multiplied with turns denormal.
 inline constexpr double kLeastPhase = -400.0;
 
-/// Among the kernels equal in time: the nearest one (of periodic ones from 0 to N), and how many lie within
-/// reach on either side.
+/// Among the kernels equal in time: the nearest one, and how many lie within reach on either side.
 struct GaussianBasis::Place {
   int middle;
   int below;
   int above;
 };
 
-/// A phase in spacings of the kernels; of periodic ones from 0 to N, behind the reach_ that come before.
-inline double GaussianBasis::spacings(double s) const noexcept {
-  if (!round_) return s * (count_ - 1);
-  const double within = s - std::floor(s);
-  return within * count_;
-}
-
 inline GaussianBasis::Place GaussianBasis::place(double s) const noexcept {
-  const double u = spacings(s);
-  if (round_) return {u >= 0.0 ? static_cast<int>(u + 0.5) : 0, reach_, reach_};
+  const double u = s * (count_ - 1);
   // 0 for what is not a number, too: this is called in control loops.
   const int middle = u > 0.0 ? static_cast<int>(std::fmin(u + 0.5, count_ - 1.0)) : 0;
   return {middle, std::min(reach_, middle), std::min(reach_, count_ - 1 - middle)};
@@ -50,7 +41,8 @@ struct GaussianBasis::PhasePair {
 /// k^2): the first factor is common to all, the last stands in a table.
 inline GaussianBasis::PhasePair GaussianBasis::pair(double s, double next, int middle) const noexcept {
   const double scale = 2.0 * overlap_;
-  Eigen::Array4d exponent(scale * (spacings(s) - middle), scale * (spacings(next) - middle), -alpha_x_ * s,
+  const double spacings = count_ - 1.0;
+  Eigen::Array4d exponent(scale * (s * spacings - middle), scale * (next * spacings - middle), -alpha_x_ * s,
                           -alpha_x_ * next);
   exponent = exponent.max(kSmallestExponent).min(-kSmallestExponent);
   const Eigen::Array4d result = detail::exponential<4>(exponent);

@@ -284,10 +284,10 @@ Status Stepper<Space>::join(Stepper& next, const Reach& reach) noexcept {
   if (&next == this || !detail::is_reach(reach) || next.paused() || next.status() == Status::not_finite ||
       status() == Status::not_finite || next.state_->z.size() != state_->z.size())
     return Status::invalid_input;
-  using Motion = detail::OffsetIn<Space>;
-  Motion::point(output(), state_->point);
-  Motion::velocity(output(), 1.0, state_->z.data());
-  Motion::acceleration(output(), state_->rate.data());
+  using In = detail::OffsetIn<Space>;
+  In::point(output(), state_->point);
+  In::velocity(output(), 1.0, state_->z.data());
+  In::acceleration(output(), state_->rate.data());
   next.state_->run.bridge_from(state_->point, state_->z.data(), state_->rate.data(), reach);
   state_.swap(next.state_);
   return status();

@@ -55,10 +55,12 @@ class Runner {
     const double way = phase_.increment(dt);
     if (!(dt >= 0.0) || !(way <= kFarthest)) return Status::invalid_input;
     coupling_ = coupling;
+    plain_ = coupling == nullptr && !amplifies_;
     advance(way);
     phase_.advance(dt, way);
     status_ = !publish() ? Status::not_finite : phase_.ended() ? Status::finished : Status::running;
     coupling_ = nullptr;
+    plain_ = !amplifies_;
     return status_;
   }
 
@@ -90,6 +92,7 @@ class Runner {
     wanted_amplitude_ = amplitude;
     if (at_start() || amplitude_rate_ == 0.0) amplitude_.fill(amplitude);
     amplifies_ = true;
+    plain_ = false;
     if (at_start()) publish();
     return status_;
   }
@@ -117,6 +120,7 @@ class Runner {
     amplitude_ = other.amplitude_;
     wanted_amplitude_ = other.wanted_amplitude_;
     amplifies_ = other.amplifies_;
+    plain_ = !amplifies_;
     seen_ = other.phase_.s();
     evaluated_at_ = kNowhere;
   }
@@ -184,6 +188,12 @@ class Runner {
     evaluate(kEnd, end, on);
   }
 
+  /// What a piece of the way adds to the forcing term, or multiplies it by.
+  [[gnu::noinline]] void prepare_drive(double s, double piece) noexcept {
+    if (coupling_ != nullptr) evaluate_coupling(s);
+    if (amplifies_) approach_amplitude(piece);
+  }
+
   /// At the nodes of a piece: a share exp(-rate s) of the way is left, so that the drive does not jump.
   void approach_amplitude(double piece) noexcept {
     const double half = std::exp(-0.5 * amplitude_rate_ * piece);
@@ -210,7 +220,7 @@ class Runner {
   }
 
   [[gnu::always_inline]] const double* drive(Node which) noexcept {
-    return system_.unscaled() && coupling_ == nullptr && !amplifies_ ? node(which) : formed_drive(which);
+    return system_.unscaled() && plain_ ? node(which) : formed_drive(which);
   }
 
   [[gnu::noinline]] const double* formed_drive(Node which) noexcept {
@@ -247,8 +257,7 @@ class Runner {
     }
     evaluate_way(s + 0.5 * piece, s + piece, on);
     evaluated_at_ = on ? s + piece : kNowhere;
-    if (coupling_ != nullptr) evaluate_coupling(s);
-    if (amplifies_) approach_amplitude(piece);
+    if (!plain_) prepare_drive(s, piece);
     system_.advance(piece, {drive(kStart), drive(kMiddle), drive(kEnd)});
   }
 
@@ -271,6 +280,7 @@ class Runner {
   double wanted_amplitude_ = 1.0;
   std::array<double, 3> amplitude_{1.0, 1.0, 1.0};  // by Node
   bool amplifies_ = false;
+  bool plain_ = true;  // the drive is the forcing term, but for its scale
   double largest_step_;
   Status status_ = Status::running;
 };

@@ -29,9 +29,9 @@ def arm_line(arm: Arm) -> str:
 
 
 def way(model: PoseDmp) -> str:
-    """Where a model's motion begins and ends, as --goal takes it."""
+    """Where a model's motion begins and ends, or what it goes round, as --goal takes it."""
     start, goal = (",".join(f"{x:.3f}" for x in pose[:3, 3]) for pose in (model.start, model.goal))
-    return f"from {start} to {goal}"
+    return f"round {goal}" if model.options.motion.name == "rhythmic" else f"from {start} to {goal}"
 
 
 def print_checks(console: Console, checks: Iterable[Check]) -> None:

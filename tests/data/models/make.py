@@ -41,6 +41,29 @@ def demonstrations() -> dict[str, object]:
     }
 
 
+def rounds() -> dict[str, object]:
+    """One cycle, seen as each kind of model sees it; it turns once about the vertical."""
+    share = np.linspace(0.0, 1.0, 41)
+    turn = 2 * np.pi * share
+    poses = np.tile(np.eye(4), (len(share), 1, 1))
+    poses[:, :3, :3] = [dmpcpp.so3.exp([0.3 * np.cos(u), 0.2 * np.sin(u), 0]) @ dmpcpp.so3.exp([0, 0, u]) for u in turn]
+    poses[:, :3, 3] = np.c_[0.1 * np.cos(turn), 0.2 * np.sin(turn), 0.3 + 0.05 * np.sin(2 * turn)]
+    poses[-1] = poses[0]
+    return {
+        "dmp": dmpcpp.Demonstration(1.2 * share, poses[:, :3, 3]),
+        "orientation_dmp": dmpcpp.OrientationDemonstration(1.2 * share, poses[:, :3, :3]),
+        "pose_dmp": dmpcpp.PoseDemonstration(1.2 * share, poses),
+    }
+
+
+def sequence() -> object:
+    """A reach, five and a half rounds, and back, past a via-pose."""
+    model = dmpcpp.PoseDmp.fit(demonstrations()["pose_dmp"], basis_count=7)
+    stir = dmpcpp.PoseDmp.fit(rounds()["pose_dmp"], basis_count=7, motion="rhythmic")
+    via = dmpcpp.Via(0.6, model.start, np.linspace(-0.1, 0.1, 6), (0.2, 0.1))
+    return dmpcpp.PoseDmpSequence([model, stir, model], leave=[0.9, 5.5, 1.0], reach=0.4, via=[[], [], [via]])
+
+
 def motion(model) -> list:
     """Where the model is at five moments, at another tempo."""
     plan = model.rollout_at(np.linspace(0.0, 2.0, 5), duration=2.0)
@@ -59,6 +82,12 @@ def main(folder: Path) -> None:
             model = fits[kind](demonstration, basis_count=7, **options)
             dmpcpp.save(model, folder / f"{kind}-{name}.json")
             motions[f"{kind}-{name}"] = motion(model)
+    for kind, demonstration in rounds().items():
+        model = fits[kind](demonstration, basis_count=7, motion="rhythmic")
+        dmpcpp.save(model, folder / f"{kind}-rhythmic.json")
+        motions[f"{kind}-rhythmic"] = motion(model)
+    dmpcpp.save(sequence(), folder / "pose_dmp_sequence.json")
+    motions["pose_dmp_sequence"] = sequence().rollout_at(np.linspace(0.0, 8.0, 9)).pose.tolist()
     (folder / "motions.json").write_text(json.dumps(motions, indent=0) + "\n")
 
 
