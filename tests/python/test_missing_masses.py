@@ -7,7 +7,7 @@ import pytest
 from dmpcpp import Arm, arms
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot import assumptions, links_by_density, without_dynamics
-from dmpcpp.robot._body_inertia import _solid
+from dmpcpp.robot._solids import solid
 from scipy.spatial.transform import Rotation
 
 from tests.python.command import run
@@ -20,7 +20,7 @@ def test_a_turned_box_has_the_moments_of_a_box_about_its_centre():
     sides, centre = np.array([0.3, 0.2, 0.5]), np.array([1.0, -2.0, 0.4])
     turn = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * sides
-    volume, middle, moment = _solid(corners @ turn.T + centre)
+    volume, middle, moment = solid(corners @ turn.T + centre)
     assert volume == pytest.approx(0.03) and middle == pytest.approx(centre)
     about_centre = turn.T @ (moment - volume * np.outer(middle, middle)) @ turn
     assert about_centre == pytest.approx(np.diag(volume * sides**2 / 12), abs=1e-12)

@@ -240,6 +240,39 @@ def test_a_body_without_mass_between_others_leaves_the_inertia_unjudged_and_a_fr
     assert executed(arm(inertials={"l4": ""}, shapes={"l4": ""})).verdict["inertia"].result == "holds"
 
 
+def on_the_tip(side, inertial=""):
+    """A cube that is fixed to the last link, which weighs 1 kg."""
+    cube = f'<collision><origin xyz="0 0 0.1"/><geometry><box size="{side} {side} {side}"/></geometry></collision>'
+    fixed = '<joint name="f" type="fixed"><parent link="l6"/><child link="frame"/></joint>'
+    return arm(extra=f'<link name="frame">{inertial}{cube}</link>{fixed}')
+
+
+@pytest.mark.parametrize(("side", "result"), [(0.01, "holds"), (0.018, "holds"), (0.019, "not judged")])
+def test_a_small_part_without_mass_is_a_note_and_a_large_one_is_not_judged(side, result):
+    """In solid steel, 7850 kg/m^3, 5 % of 1 kg are a cube of 18.5 mm."""
+    for inertial in ("", f'<inertial><mass value="0"/>{ZERO}</inertial>'):
+        log = executed(on_the_tip(side, inertial))
+        check = log.verdict["inertia"]
+        assert check.result == result
+        (repair,) = log.inertia_repairs
+        assert repair.change == pytest.approx(7850 * side**3, rel=1e-6) and repair.missing
+        assert f"frame (states none: at most {785e3 * side**3:.2g} % of its body)" in check.detail
+        assert log.repaired_links == ()
+
+
+@pytest.mark.parametrize(
+    ("mass", "change", "result"),
+    [("1e-9", None, "holds"), ("0.04", 0.04 / 1.04, "holds"), ("0.1", 0.1 / 1.1, "not judged")],
+)
+def test_a_mass_without_inertia_counts_by_its_share_of_the_body(mass, change, result):
+    log = executed(on_the_tip(0.01, f'<inertial><mass value="{mass}"/>{ZERO}</inertial>'))
+    assert log.verdict["inertia"].result == result
+    assert [repair.change for repair in log.inertia_repairs] == ([] if change is None else [pytest.approx(change)])
+
+
+ZERO = '<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>'
+
+
 def test_what_the_arm_does_not_move_has_any_inertia():
     assert executed(arm(inertials={"base": with_izz("1")})).verdict["inertia"].value == 0.0
 

@@ -101,9 +101,8 @@ class Imitation(Checked):
 
     @property
     def changed(self) -> tuple[str, ...]:
-        """Parts of the arm's description that were replaced: impossible inertias, with the size of the change."""
-        found = tuple(map(str, self.log.inertia_repairs)) if self["inertia"].ok else ()
-        return (f"inertia of {', '.join(found)} by the nearest that a body can have",) if found else ()
+        """Parts of the arm's description that were replaced or are missing: inertias, with the size of the change."""
+        return tuple(simulation.inertia_notes(self.log.inertia_repairs)) if self["inertia"].ok else ()
 
     def summary(self) -> dict[str, Any]:
         """Return what `summary.json` holds; m and rad."""

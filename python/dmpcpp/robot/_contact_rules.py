@@ -22,7 +22,7 @@ from dmpcpp.robot._shapes import lowest
 from dmpcpp.robot._urdf_changes import freeze
 from dmpcpp.robot._xml import parsed
 
-__all__ = ["FLOOR", "ContactRules", "Surroundings", "contact_rules", "floor_height"]
+__all__ = ["FLOOR", "ContactRules", "Surroundings", "contact_rules", "floor_height", "groups_of"]
 
 FLOOR = "floor"
 """The name of the ground in contacts."""
@@ -117,8 +117,8 @@ def _rules(urdf: str, folder: str, joints: tuple[str, ...], ignored: tuple[tuple
     links = {link.get("name", "") for link in robot.findall("link")}
     solid = {link.get("name", "") for link in robot.findall("link") if link.find("collision") is not None}
     fixed, arms = (
-        _groups(robot, lambda j: j.get("type") == "fixed"),
-        _groups(robot, lambda j: j.get("name") not in joints),
+        groups_of(robot, lambda j: j.get("type") == "fixed"),
+        groups_of(robot, lambda j: j.get("name") not in joints),
     )
     same = _pairs_within(set(arms.values()))
     across = frozenset(
@@ -155,7 +155,7 @@ def floor_height(urdf: str, arm: Arm, surroundings: Surroundings | None, still: 
     return min(0.0, lowest(robot, still))
 
 
-def _groups(robot: ET.Element, rigid: Any) -> dict[str, frozenset[str]]:
+def groups_of(robot: ET.Element, rigid: Any) -> dict[str, frozenset[str]]:
     """Return the group of each link: merged over the joints that are rigid."""
     group = {link.get("name", ""): frozenset([link.get("name", "")]) for link in robot.findall("link")}
     for joint in robot.findall("joint"):

@@ -6,22 +6,20 @@ The same text goes to every engine, so that none repairs (or silently drops) any
 from __future__ import annotations
 
 import copy
-import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations, product
 from pathlib import Path
 
-import numpy as np
-
 from dmpcpp._core import Arm
-from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot._contact_rules import groups_of
 from dmpcpp.robot._convex_pieces import convex_pieces
 from dmpcpp.robot._disturbance import Disturbance
-from dmpcpp.robot._engine_urdf import inertia_of, write_inertia, written
-from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
+from dmpcpp.robot._engine_urdf import written
+from dmpcpp.robot._inertia import InertiaRepair, repaired_links
+from dmpcpp.robot._link_masses import refuse_massless, repaired, shares_without_mass
 from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._urdf_changes import (
     add_payload,
@@ -116,18 +114,18 @@ def describe(
     normalize_axes(robot)
     links = robot.findall("link")
     moved = links_beyond(robot, arm.joint_names[0])
+    unstated = shares_without_mass(robot, arm, moved)
     unjudged = tuple(
         link.get("name", "")
         for link in links
         if not _prepared(link, arm.folder, folder, visuals, link.get("name") in moved)
     )
-    found = [repair for link in links if (repair := _repair_inertia(link)) is not None]
-    repairs = tuple(repair for repair in found if repair.link in moved)
+    repairs = tuple(repair for repair in repaired(robot, unstated) if repair.link in moved)
     _change(robot, arm, disturbance or Disturbance())
-    _refuse_massless(robot, arm)
+    refuse_massless(robot, arm.joint_names[-1], links_beyond(robot, arm.joint_names[-1]))
     freeze(robot, arm.joint_names, () if only_the_arm_moves else _WITH_MOTORS)
     remove_bare_frames(robot, (arm.base, arm.tip))
-    groups = _rigid_groups(robot)
+    groups = tuple(dict.fromkeys(groups_of(robot, lambda joint: joint.get("type") == "fixed").values()))
     neighbours, aliases = _neighbours(robot, groups), rename_links(robot)
     return RobotDescription(written(robot), repairs, unjudged, aliases, groups, neighbours)
 
@@ -217,75 +215,6 @@ def _split_into_convex_pieces(link: ET.Element, collision: ET.Element, folder: P
         part = copy.deepcopy(collision)
         part.find("geometry/mesh").set("filename", str(path))  # type: ignore[union-attr]
         link.append(part)
-
-
-def _refuse_massless(robot: ET.Element, arm: Arm) -> None:
-    """A joint that carries no mass has undefined dynamics; the last joint carries the least."""
-    last = arm.joint_names[-1]
-    beyond = links_beyond(robot, last)
-    masses = [mass for link in robot.findall("link") if link.get("name") in beyond for mass in link.iter("mass")]
-    if not any(float(mass.get("value", 0.0)) > 0.0 for mass in masses):
-        raise InvalidArgument(
-            f"arm.urdf: no link beyond joint '{last}' has a mass, expected one that physics can move. Give "
-            f"{', '.join(sorted(beyond))} an <inertial>, take the masses from the shapes "
-            "(arms.with_stated(arm, density=2700)), or run by kinematics alone (dynamics='none'); `dmpcpp check-urdf` "
-            "names every link without one."
-        )
-
-
-def _repair_inertia(link: ET.Element) -> InertiaRepair | None:
-    """Replace an inertia that is not physical; a link without mass and inertia is only a frame and stays.
-
-    A link that has a shape to collide with is a body, and no body is without mass.
-    """
-    name, is_body = link.get("name", ""), link.find("collision") is not None
-    inertial = link.find("inertial")
-    if inertial is None:
-        _make_massless(link)
-        return InertiaRepair(name, math.inf) if is_body else None
-    element = inertial.find("inertia")
-    mass = float(getattr(inertial.find("mass"), "attrib", {}).get("value", 0.0))
-    if not 0.0 <= mass < np.inf:
-        raise InvalidArgument(f"arm.urdf: link '{link.get('name')}': <mass>: {mass} kg, expected 0 or more.")
-    inertia = _read_inertia(element, name)
-    if mass == 0.0 and not inertia.any():
-        return InertiaRepair(name, math.inf) if is_body else None
-    if is_physical(inertia):
-        return None
-    if element is None:
-        element = ET.SubElement(inertial, "inertia")
-    nearest = nearest_physical(inertia)
-    write_inertia(element, nearest)
-    return InertiaRepair(name, moment_change(inertia, nearest))
-
-
-def _make_massless(link: ET.Element) -> None:
-    """Say in the URDF what a missing <inertial> means: no mass. (Bullet would take 1 kg.)"""
-    inertial = ET.SubElement(link, "inertial")
-    ET.SubElement(inertial, "mass", value="0")
-    write_inertia(ET.SubElement(inertial, "inertia"), np.zeros((3, 3)))
-
-
-def _read_inertia(element: ET.Element | None, link: str) -> Array:
-    if element is None:
-        return np.zeros((3, 3))
-    try:
-        inertia = inertia_of(element)
-    except ValueError as error:
-        raise InvalidArgument(f"arm.urdf: link '{link}': <inertia>: {error}. Give six numbers.") from None
-    if not np.isfinite(inertia).all():
-        raise InvalidArgument(f"arm.urdf: link '{link}': <inertia> is not finite. Give six numbers.")
-    return inertia
-
-
-def _rigid_groups(robot: ET.Element) -> tuple[frozenset[str], ...]:
-    """Links merged over fixed joints."""
-    group = {link.get("name", ""): frozenset([link.get("name", "")]) for link in robot.findall("link")}
-    for joint in robot.findall("joint"):
-        if joint.get("type") == "fixed":
-            merged = frozenset().union(*(group[name] for name in _ends(joint)))
-            group.update(dict.fromkeys(merged, merged))
-    return tuple(dict.fromkeys(group.values()))
 
 
 def _neighbours(robot: ET.Element, groups: tuple[frozenset[str], ...]) -> frozenset[frozenset[str]]:

@@ -22,23 +22,27 @@ class InertiaRepair:
     ----------
     link : str
     change : float
-        The largest change of a principal moment over the largest moment; infinite where nothing is stated that could
-        be changed: a body without mass, or a mass without inertia.
+        The largest change of a principal moment over the largest moment. Where nothing is stated that could be
+        changed, what the link weighs at most over the mass of what it is rigid with; infinite where that is unknown.
+    missing : bool
+        Whether it is a body without mass, or a mass without inertia.
     """
 
     link: str
     change: float
+    missing: bool = False
 
     def __str__(self) -> str:
         """Name and size."""
-        if not math.isfinite(self.change):
-            return f"{self.link} (states none)"
-        return f"{self.link} ({100.0 * self.change:.2g} %)"
+        size = f"{100.0 * self.change:.2g} %"
+        if not self.missing:
+            return f"{self.link} ({size})"
+        return f"{self.link} (states none{f': at most {size} of its body' if math.isfinite(self.change) else ''})"
 
 
 def repaired_links(repairs: Iterable[InertiaRepair]) -> tuple[str, ...]:
     """Return the links whose inertia was replaced by another."""
-    return tuple(repair.link for repair in repairs if math.isfinite(repair.change))
+    return tuple(repair.link for repair in repairs if not repair.missing)
 
 
 def is_physical(inertia: Array, tolerance: float = 1e-9) -> bool:

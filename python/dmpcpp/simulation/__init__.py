@@ -23,7 +23,7 @@ from dmpcpp.simulation._reference import states_at as states_at
 from dmpcpp.simulation._second_opinion import AgreementTolerances, agreement
 from dmpcpp.simulation._simulator import Clearance, Contact, Simulator
 from dmpcpp.simulation._torque_scaling import torque_duration_factor
-from dmpcpp.simulation._verdict import Tolerances, Verdict, inverse_kinematics_checks, judge
+from dmpcpp.simulation._verdict import Tolerances, Verdict, inertia_notes, inverse_kinematics_checks, judge
 
 ENGINES = {"bullet": Bullet, "mujoco": MuJoCo}
 """The engines by the names of the command line."""
@@ -59,6 +59,7 @@ __all__ = [
     "default_simulator",
     "execute",
     "from_rest_to_rest",
+    "inertia_notes",
     "inverse_kinematics_checks",
     "judge",
     "nearest_along",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from dmpcpp.metrics import position_errors
 from dmpcpp.robot import (
     POSE,
     Follow,
+    InertiaRepair,
     LimitUse,
     dimension_checks,
     jerk_check,
@@ -180,15 +181,23 @@ def _inertia(log: ExecutionLog, tolerances: Tolerances) -> Check:
     if len(beyond) > tolerances.repaired_inertias:
         links = ", ".join(map(str, beyond))
         why = f"no body can have the inertia of {links}, which the nearest possible replaces. Correct it in the URDF."
-        if any(math.isinf(repair.change) for repair in beyond):
+        if any(repair.missing for repair in beyond):
             why = (
                 f"no mass or inertia is stated of {links}. State them in the URDF, or the density of its bodies with "
                 "arms.with_stated(arm, density=...) [kg/m^3]."
             )
         return Check.not_judged("inertia", "1", why)
     most = max((repair.change for repair in repairs if math.isfinite(repair.change)), default=0.0)
-    detail = f"replaced by the nearest possible: {', '.join(map(str, repairs))}" if repairs else ""
-    return Check("inertia", True, most, limit, "1", None, detail)
+    return Check("inertia", True, most, limit, "1", None, "; ".join(inertia_notes(repairs)))
+
+
+def inertia_notes(repairs: Iterable[InertiaRepair]) -> Iterator[str]:
+    """Yield one line for the inertias that were replaced, and one for those that are missing."""
+    repairs = tuple(repairs)
+    for what, missing in (("replaced by the nearest that a body can have", False), ("left out", True)):
+        named = ", ".join(str(repair) for repair in repairs if repair.missing == missing)
+        if named:
+            yield f"inertia {what}: {named}"
 
 
 def _model(log: ExecutionLog, tolerances: Tolerances) -> Iterator[Check]:
