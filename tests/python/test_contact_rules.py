@@ -12,10 +12,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from dmpcpp import Arm, InvalidArgument, planning, simulation
-from dmpcpp.robot import FLOOR, Surroundings, contact_rules
+from dmpcpp.robot import FLOOR, Levers, Surroundings, contact_rules, parsed
 
 from tests.python.command import run
-from tests.python.urdfs import INERTIAL, chain, joint, link, robot
+from tests.python.urdfs import INERTIAL, chain, joint, link, robot, slide
 
 CUBE = INERTIAL + '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
 ENGINES = list(simulation.ENGINES.values())
@@ -121,7 +121,7 @@ def test_a_floor_that_always_touches_is_named_with_what_to_state() -> None:
 class Needle:
     """A world of one joint in which clearance is 5 mm less than the distance from 0.3015 rad."""
 
-    levers = np.array([1.0])
+    levers = SimpleNamespace(all=np.array([1.0]), between=lambda *_: np.array([1.0]))
 
     def __init__(self) -> None:
         self.looks = 0
@@ -142,6 +142,69 @@ def test_a_contact_between_two_samples_of_a_path_is_found() -> None:
     assert before < 60
     clear = simulation.nearest_along(world, path[:3], frozenset("ab"), 2e-3)
     assert all(one.clearance.distance >= 2e-3 for one in clear.values())
+
+
+def test_levers_bound_how_far_two_links_move_against_each_other() -> None:
+    text = robot(chain(6), beside("pad", "0.05 0 0", "l6"))
+    arm, levers = Arm.from_urdf(text, tip="l6"), Levers(parsed(text), [f"j{k}" for k in range(1, 7)])
+    parts = {name: Arm.from_urdf(text, tip=name) for name in ("l1", "l3", "l4", "l6")}
+    corners = np.array([[x, y, z] for x in (-0.025, 0.025) for y in (-0.025, 0.025) for z in (0.01, 0.09)])
+    random = np.random.default_rng(0)
+
+    def seen(link: str, other: str, q: np.ndarray) -> np.ndarray:
+        """Corners of a link in the frame of another."""
+        one, two = (parts[name].forward_kinematics(q[: parts[name].joint_count]) for name in (link, other))
+        placed = corners @ one[:3, :3].T + one[:3, 3]
+        return (placed - two[:3, 3]) @ two[:3, :3]
+
+    tightest = 0.0
+    for link_, other in (("l3", "l1"), ("l6", "l3"), ("l6", "l4"), ("l4", "l3")):
+        for _ in range(200):
+            q, way = random.uniform(arm.lower, arm.upper), random.uniform(-0.05, 0.05, 6)
+            moved = np.linalg.norm(seen(link_, other, q + way) - seen(link_, other, q), axis=1).max()
+            bound = np.abs(way) @ levers.between(link_, other)
+            assert moved <= bound + 1e-12
+            tightest = max(tightest, moved / bound)
+    assert tightest > 0.9
+    assert np.flatnonzero(levers.between("l3", "l1")).tolist() == [1, 2]
+    assert np.flatnonzero(levers.between("l4", "floor")).tolist() == [0, 1, 2, 3]
+    assert (levers.between("pad", "l6") == 0.0).all() and (levers.all >= levers.between("l6", "base")).all()
+    assert levers.between("l4", "l3")[3] == pytest.approx(np.linalg.norm([0.025, 0.025, 0.09]))
+    assert (Levers(parsed(text), ["j4"], {"four": "l4"}).between("four", "l3") == levers.between("l4", "l3")[3]).all()
+
+
+def test_a_sliding_joint_has_a_lever_of_one() -> None:
+    text = robot(chain(2), link("slide", CUBE), slide("s", "l2", "slide", stroke=0.3), root="base")
+    found = Levers(parsed(text), ["j1", "j2", "s"]).between("slide", "base")
+    assert found[2] == 1.0
+    assert found[1] == pytest.approx(np.linalg.norm([0.05, 0.05, 0.05]) + 0.3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("gap", "clear"), [(1e-3, True), (4e-3, True), (-1e-3, False)])
+def test_of_what_is_built_close_to_each_other_only_contact_counts(engine, gap: float, clear: bool) -> None:
+    """The box of l1 turns above the floor, its lower side at 0.11 m."""
+    arm = Arm.from_urdf(robot(chain(6)))
+    on_floor = partial(engine, floor=0.11 - gap)
+    path = SimpleNamespace(position=np.linspace([0.0] * 6, [0.5, 0.2, 0.2, 0.3, 0.2, 0.1], 30))
+    assert planning.clear_of_itself(arm, on_floor)(path) == clear
+    if clear:
+        looked_at = planning.require_free_postures(arm, partial(on_floor, ignored=OFF_FLOOR))
+        assert looked_at.tight == (("l1", "floor"),)
+        assert "within 5 mm of each other, so that only contact counts: l1, floor" in looked_at.describe()
+        high = planning.require_free_postures(arm, partial(engine, floor=0.1, ignored=OFF_FLOOR))
+        assert high.tight == () and "only contact counts" not in high.describe()
+
+
+OFF_FLOOR = [(f"l{k}", "floor") for k in range(2, 7)]
+
+
+def test_what_lies_beside_a_tight_pair_still_keeps_its_distance() -> None:
+    arm = Arm.from_urdf(robot(chain(6)))
+    clear = planning.clear_of_itself(arm, partial(simulation.Bullet, floor=0.109))
+    low = np.array([0.0, 2.4, 1.5, 0.0, 0.0, 0.0])  # the arm in the floor
+    assert not clear(SimpleNamespace(position=np.linspace(0.0 * low, low, 50)))
+    assert "l1" not in clear.refused.most_common(1)[0][0]
 
 
 def test_a_path_is_refused_with_the_pair_and_how_often() -> None:

@@ -20,11 +20,14 @@ __all__ = ["ClearOfItself", "LookedAt", "clear_of_itself", "require_free_posture
 
 _POSTURES = 40  # random ones that are looked at for pairs that always touch
 _NEARLY_ALL = 0.95
+_TIGHT = 5e-3  # m; where a pair is nearer in nearly all of them, it is built so
 _SHOWN = 6  # pairs that are named in a line
 
 
 class ClearOfItself:
     """A test of joints: the arm keeps 2 mm off itself and the floor, proven for the whole path.
+
+    Pairs that are built closer than 5 mm to each other have to keep clear of contact alone.
 
     Attributes
     ----------
@@ -37,16 +40,18 @@ class ClearOfItself:
         """Nothing is loaded yet."""
         self._arm, self._engine, self._links = arm, engine, links_of(arm)
         self._world: Simulator | None = None
+        self._tight: frozenset[tuple[str, str]] = frozenset()
         self.refused: Counter[tuple[str, str]] = Counter()
         self.tested = 0
 
     def __call__(self, joints: JointTrajectory) -> bool:
         """Whether these keep clear."""
         self.tested += 1
-        near = simulation.nearest_along(self._open(), joints.position, self._links, simulation.CLEAR)
-        close = [one.clearance for one in near.values() if one.clearance.distance < simulation.CLEAR]
+        world = self._open()
+        near = simulation.nearest_along(world, joints.position, self._links, simulation.CLEAR, tight=self._tight)
+        close = [one for one in near.values() if one.margin < 0.0]
         if close:
-            nearest = min(close, key=lambda one: one.distance)
+            nearest = min(close, key=lambda one: one.margin).clearance
             self.refused[nearest.link, nearest.other] += 1
         return not close
 
@@ -54,6 +59,7 @@ class ClearOfItself:
         """Load the arm at the first path; a search tries hundreds. It is freed with this test."""
         if self._world is None:
             self._world = self._engine(self._arm, 1e-3).__enter__()
+            self._tight = _tight_pairs(self._world, self._arm)
             weakref.finalize(self, self._world.__exit__)
         return self._world
 
@@ -79,27 +85,32 @@ class LookedAt:
     """What is looked at for contacts: all pairs but those that the rules leave out, and a floor [m] unless None.
 
     `unjudged` are links that the arm does not move and whose shapes cannot be read; `at_rest` are the pairs that touch
-    with every joint at 0.
+    with every joint at 0, `tight` those that are built so close that only contact counts.
     """
 
     rules: ContactRules
     floor: float | None
     unjudged: tuple[str, ...] = ()
     at_rest: tuple[tuple[str, str], ...] = ()
+    tight: tuple[tuple[str, str], ...] = ()
 
     def describe(self) -> str:
         """Return one line for reports."""
         floor = "no floor" if self.floor is None else f"floor at z = {round(self.floor, 3) + 0.0:g} m"
         unread = f"; not judged: contacts of {', '.join(self.unjudged)}, no mesh" if self.unjudged else ""
-        return f"{self.rules.describe()}; {floor}{unread}{self._touching()}"
+        return f"{self.rules.describe()}; {floor}{self._close()}{unread}{self._touching()}"
 
     def _touching(self) -> str:
         """Name what touches at rest: an overlap by construction, if it is one, has to be stated."""
         if not self.at_rest:
             return ""
-        pairs = "; ".join(f"{a}, {b}" for a, b in self.at_rest[:_SHOWN])
-        more = f" and {len(self.at_rest) - _SHOWN} more" if len(self.at_rest) > _SHOWN else ""
-        return f"; touching with every joint at 0 (if they are built so, ignore them): {pairs}{more}"
+        return f"; touching with every joint at 0 (if they are built so, ignore them): {_listed(self.at_rest)}"
+
+    def _close(self) -> str:
+        """Name what is closer in every posture than a placement keeps otherwise."""
+        if not self.tight:
+            return ""
+        return f"; built within {1e3 * _TIGHT:g} mm of each other, so that only contact counts: {_listed(self.tight)}"
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -133,7 +144,8 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
             found.update({(contact.link, contact.other) for contact in world.contacts_at(q)})
         rest = world.contacts_at(np.clip(np.zeros(arm.joint_count), arm.lower, arm.upper))
         at_rest = tuple((contact.link, contact.other) for contact in rest)
-        looked_at = LookedAt(world.contact_rules, world.floor, world.unjudged_links, at_rest)
+        tight = tuple(sorted(_tight_pairs(world, arm)))
+        looked_at = LookedAt(world.contact_rules, world.floor, world.unjudged_links, at_rest, tight)
     always = [(pair, n) for pair, n in found.most_common() if n >= _NEARLY_ALL * _POSTURES]
     if not always:
         return looked_at
@@ -144,3 +156,16 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
         f"arm: links of {arm.name!r} touch in (nearly) every posture: {named} random ones. If they are built so, state "
         f"{stated}, or disable_collisions in an .srdf beside the URDF.{floor}"
     )
+
+
+def _tight_pairs(world: Simulator, arm: Arm) -> frozenset[tuple[str, str]]:
+    """Return the pairs that stand close to each other in nearly every posture."""
+    found: Counter[tuple[str, str]] = Counter()
+    for q in random_postures(arm, _POSTURES):
+        found.update({(near.link, near.other) for near in world.clearances_at(q, _TIGHT)})
+    return frozenset(pair for pair, n in found.items() if n >= _NEARLY_ALL * _POSTURES)
+
+
+def _listed(pairs: tuple[tuple[str, str], ...]) -> str:
+    more = f" and {len(pairs) - _SHOWN} more" if len(pairs) > _SHOWN else ""
+    return "; ".join(f"{a}, {b}" for a, b in pairs[:_SHOWN]) + more

@@ -11,13 +11,13 @@ from dmpcpp.robot._disturbance import Disturbance
 from dmpcpp.robot._follow import POSE, Follow, following
 from dmpcpp.robot._gravity import Overload, overloads, random_postures, require_holdable
 from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nearest_physical, repaired_links
+from dmpcpp.robot._levers import Levers
 from dmpcpp.robot._limit_sources import assumptions, limits_summary
 from dmpcpp.robot._limit_use import LimitUse, judged_by_limits
 from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._payload import payload_of, with_description, with_payload
 from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why
 from dmpcpp.robot._reach import farthest_reach, require_within_reach
-from dmpcpp.robot._shapes import levers
 from dmpcpp.robot._stated_limits import with_limits_file, with_stated
 from dmpcpp.robot._stated_use import jerk_check, stated_duration_factor, tool_speed_check
 from dmpcpp.robot._xml import parsed
@@ -29,6 +29,7 @@ __all__ = [
     "Disturbance",
     "Follow",
     "InertiaRepair",
+    "Levers",
     "LimitDoubt",
     "LimitUse",
     "Overload",
@@ -47,7 +48,6 @@ __all__ = [
     "jerk_check",
     "joint_types",
     "judged_by_limits",
-    "levers",
     "limit_doubts",
     "limits_summary",
     "links_beyond",

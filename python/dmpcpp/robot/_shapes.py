@@ -1,4 +1,4 @@
-"""Where the collision shapes of a described robot are: how far each link extends, and how low it stands."""
+"""Where the collision shapes of a described robot are, and how low it stands."""
 
 from __future__ import annotations
 
@@ -12,41 +12,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._typing import Array
 from dmpcpp.robot._convex_pieces import mesh_points
 
-__all__ = ["levers", "lowest", "points_of", "pose_of"]
-
-
-def levers(robot: ET.Element, joints: list[str]) -> Array:
-    """Return for each joint how far it moves any point of a shape at most: m a rad, or 1 for one that slides.
-
-    Stretched all the way: the sum of the distances from joint to joint and on to the farthest point of a link.
-    """
-    below: dict[str, list[ET.Element]] = {}
-    for joint in robot.findall("joint"):
-        below.setdefault(_end(joint, "parent"), []).append(joint)
-    extent = {link.get("name", ""): _extent(link) for link in robot.findall("link")}
-
-    def beyond(link: str) -> float:
-        return max(
-            [extent.get(link, 0.0), *(_step(joint) + beyond(_end(joint, "child")) for joint in below.get(link, []))]
-        )
-
-    of = {joint.get("name"): joint for joint in robot.findall("joint")}
-    turning = {name: of[name].get("type") != "prismatic" for name in joints}
-    return np.array([beyond(_end(of[name], "child")) if turning[name] else 1.0 for name in joints])
-
-
-def _extent(link: ET.Element) -> float:
-    """How far the shapes of a link reach from the origin of its frame, m."""
-    return max((float(np.linalg.norm(p, axis=1).max()) + r for p, r in _balls(link)), default=0.0)
-
-
-def _step(joint: ET.Element) -> float:
-    """How far a joint's child is from its parent at most, m."""
-    stroke = 0.0
-    limit = joint.find("limit")
-    if joint.get("type") == "prismatic" and limit is not None:
-        stroke = max(abs(_number(limit.get("lower"))), abs(_number(limit.get("upper"))))
-    return float(np.linalg.norm(pose_of(joint)[:3, 3])) + stroke
+__all__ = ["balls", "end_of", "lowest", "number", "points_of", "pose_of"]
 
 
 def lowest(robot: ET.Element, links: frozenset[str]) -> float:
@@ -58,7 +24,7 @@ def lowest(robot: ET.Element, links: frozenset[str]) -> float:
     for link in robot.findall("link"):
         pose = poses.get(link.get("name", ""))
         if link.get("name") in links and pose is not None:
-            for points, radius in _balls(link):
+            for points, radius in balls(link):
                 height = min(height, float((points @ pose[2, :3]).min() + pose[2, 3] - radius))
     return height
 
@@ -68,7 +34,7 @@ def _poses_at_rest(robot: ET.Element) -> dict[str, Array]:
     joints: dict[str, list[tuple[str, Array]]] = {}
     children = set()
     for joint in robot.findall("joint"):
-        parent, child = _end(joint, "parent"), _end(joint, "child")
+        parent, child = end_of(joint, "parent"), end_of(joint, "child")
         joints.setdefault(parent, []).append((child, pose_of(joint)))
         children.add(child)
     poses = {link.get("name", ""): np.eye(4) for link in robot.findall("link") if link.get("name") not in children}
@@ -81,7 +47,7 @@ def _poses_at_rest(robot: ET.Element) -> dict[str, Array]:
     return poses
 
 
-def _balls(link: ET.Element) -> list[tuple[Array, float]]:
+def balls(link: ET.Element) -> list[tuple[Array, float]]:
     """Return points (N, 3) in the link's frame and a radius: the shape is within these balls, and touches them."""
     found = []
     for collision in link.findall("collision"):
@@ -98,9 +64,9 @@ def points_of(geometry: ET.Element) -> tuple[Array, float]:
         if shape.tag == "box":
             return 0.5 * np.array([*product((-1.0, 1.0), repeat=3)]) * _vector(shape.get("size"), 3), 0.0
         if shape.tag == "sphere":
-            return np.zeros((1, 3)), _number(shape.get("radius"))
+            return np.zeros((1, 3)), number(shape.get("radius"))
         if shape.tag in ("cylinder", "capsule"):
-            return _rims(_number(shape.get("radius")), _number(shape.get("length"))), 0.0
+            return _rims(number(shape.get("radius")), number(shape.get("length"))), 0.0
         if shape.tag == "mesh":
             return mesh_points(Path(shape.get("filename", ""))) * _vector(shape.get("scale", "1 1 1"), 3), 0.0
     return np.empty((0, 3)), 0.0
@@ -122,7 +88,7 @@ def pose_of(element: ET.Element) -> Array:
     return frame
 
 
-def _end(joint: ET.Element, role: str) -> str:
+def end_of(joint: ET.Element, role: str) -> str:
     element = joint.find(role)
     return "" if element is None else element.get("link", "")
 
@@ -132,5 +98,5 @@ def _vector(text: str | None, count: int) -> Array:
     return values if len(values) == count else np.zeros(count)
 
 
-def _number(text: str | None) -> float:
+def number(text: str | None) -> float:
     return float(text) if text else 0.0

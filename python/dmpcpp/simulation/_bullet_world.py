@@ -24,12 +24,12 @@ from dmpcpp._typing import Array
 from dmpcpp.errors import MissingDependency
 from dmpcpp.robot import (
     Disturbance,
+    Levers,
     RobotDescription,
     Surroundings,
     contact_rules,
     describe,
     floor_height,
-    levers,
     links_of,
     parsed,
 )
@@ -76,7 +76,7 @@ class BulletWorld:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(self.arm, Path(folder), visuals=visuals, disturbance=disturbance)
             self._body = self._load(description, Path(folder, "arm.urdf"))
-            self.levers = levers(parsed(description.text), self.arm.joint_names)
+            self.levers = Levers(parsed(description.text), self.arm.joint_names, description.aliases)
             still = frozenset(map(description.in_engine, self.contact_rules.still))
             self.floor = floor_height(description.text, self.arm, self._around, still)
         self.inertia_repairs = description.repairs

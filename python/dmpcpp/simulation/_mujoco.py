@@ -23,12 +23,12 @@ from dmpcpp._typing import Array
 from dmpcpp.errors import MissingDependency
 from dmpcpp.robot import (
     Disturbance,
+    Levers,
     RobotDescription,
     Surroundings,
     contact_rules,
     describe,
     floor_height,
-    levers,
     links_of,
     parsed,
 )
@@ -94,7 +94,7 @@ class MuJoCo:
         with tempfile.TemporaryDirectory(prefix="dmpcpp-") as folder:
             description = describe(arm, Path(folder), disturbance=disturbance, only_the_arm_moves=True)
             self._description = description
-            self.levers = levers(parsed(description.text), arm.joint_names)
+            self.levers = Levers(parsed(description.text), arm.joint_names, description.aliases)
             still = frozenset(map(description.in_engine, self.contact_rules.still))
             self.floor = floor_height(description.text, arm, around, still)
             self._model = self._compile(description, obstacles)

@@ -1,13 +1,14 @@
 """The least clearance along a whole path, not at some samples of it.
 
-Between two postures no point of the robot moves farther than the joints' steps times their levers, L. Where the
-clearances at both are c and c', none in between is less than (c + c' - L) / 2; where that is not enough, the posture
-in the middle is looked at, and so on. A path that keeps clear is proven so with few looks.
+Between two postures the points of two links move no farther against each other than the steps of the joints between
+them, times their levers: L. Where the clearances of the pair at both are c and c', none in between is less than
+(c + c' - L) / 2; where that is not enough, the posture in the middle is looked at, and so on. A path that keeps clear
+is proven so with few looks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,26 +24,44 @@ CLEAR = 2e-3
 _FINEST = 0.5e-3  # m; no posture is looked at between two that are nearer to each other than this
 
 
+Pair = tuple[str, str]
+
+
 @dataclass(frozen=True)
 class Nearest:
-    """Where a path comes closest: at which sample (a fraction between two), and what to what."""
+    """Where a path comes closest: at which sample (a fraction between two), what to what, and what is asked for."""
 
     sample: float
     clearance: Clearance
+    limit: float = 0.0
+
+    @property
+    def margin(self) -> float:
+        """How much farther than asked for, m."""
+        return self.clearance.distance - self.limit
 
 
 def nearest_along(
-    engine: Simulator, position: Array, links: frozenset[str], limit: float, *, far: float = 0.05, first: int = 20
+    engine: Simulator,
+    position: Array,
+    links: frozenset[str],
+    limit: float,
+    *,
+    tight: Collection[Pair] = (),
+    far: float = 0.05,
+    first: int = 20,
 ) -> dict[str, Nearest]:
     """Return the closest pairs of each kind ("self", "floor", "object") along joints (T, n), nearer than `far` [m].
 
     Exact where nothing is nearer than `limit` [m]: that is proven for the whole path; what is nearer is found to 0.5 mm
-    of motion, and the search ends at the first.
+    of motion, and the search ends at the first. Of `tight` pairs, which are built close to each other, only contact
+    counts.
     """
-    look = _Look(engine, position, links, far)
+    look = _Look(engine, position, links, far, lambda pair: 0.0 if pair in tight else limit)
     samples = np.unique(np.linspace(0, len(position) - 1, min(first, len(position))).round())
     for sample in _in_doubt(look, samples, limit):
-        if look.at(sample) < limit:
+        look.at(sample)
+        if any(one.margin < 0.0 for one in look.nearest.values()):
             break
     return look.nearest
 
@@ -50,26 +69,51 @@ def nearest_along(
 class _Look:
     """Clearances at samples of a path, each looked up once."""
 
-    def __init__(self, engine: Simulator, position: Array, links: frozenset[str], far: float) -> None:
-        self._engine, self._position, self._links, self._far = engine, position, links, far
-        steps = np.abs(np.diff(position, axis=0)) @ engine.levers
-        self._way = np.concatenate([[0.0], np.cumsum(steps)])  # m
-        self._found: dict[float, float] = {}
+    def __init__(
+        self,
+        engine: Simulator,
+        position: Array,
+        links: frozenset[str],
+        far: float,
+        limit_of: Callable[[Pair], float],
+    ) -> None:
+        self._engine, self._position, self._links, self._far, self._limit_of = engine, position, links, far, limit_of
+        self._steps = np.abs(np.diff(position, axis=0))
+        self._ways: dict[Pair, Array] = {}
+        self._longest = self._summed(engine.levers.all)
+        self._found: dict[float, dict[Pair, float]] = {}
         self.nearest: dict[str, Nearest] = {}
 
-    def at(self, sample: float) -> float:
-        """Return the least clearance at a sample, m."""
+    def at(self, sample: float) -> dict[Pair, float]:
+        """Return the clearance of each pair nearer than `far` at a sample, m."""
         if sample not in self._found:
             near = self._engine.clearances_at(self._joints(sample), self._far)
-            self._found[sample] = min((one.distance for one in near), default=self._far)
+            self._found[sample] = {(one.link, one.other): one.distance for one in near}
             for one in near:
-                self._keep(sample, one)
+                self._keep(Nearest(sample, one, self._limit_of((one.link, one.other))))
         return self._found[sample]
 
-    def way(self, one: float, other: float) -> float:
-        """Return how far a point moves between two samples at most, m."""
-        places = np.interp([one, other], np.arange(len(self._way)), self._way)
-        return float(places[1] - places[0])
+    def proves(self, one: float, other: float, limit: float) -> bool:
+        """Whether nothing comes nearer than asked for between two samples, or these are too near to each other."""
+        before, after = self.at(one), self.at(other)
+        way = _between(self._longest, one, other)
+        if way > _FINEST and self._far - 0.5 * way < limit:
+            return False
+        for pair in before.keys() | after.keys():
+            way = _between(self._way_of(pair), one, other)
+            least = 0.5 * (before.get(pair, self._far) + after.get(pair, self._far) - way)
+            if way > _FINEST and least < self._limit_of(pair):
+                return False
+        return True
+
+    def _way_of(self, pair: Pair) -> Array:
+        if pair not in self._ways:
+            self._ways[pair] = self._summed(self._engine.levers.between(*pair))
+        return self._ways[pair]
+
+    def _summed(self, levers: Array) -> Array:
+        """Return how far a point has moved at each sample at most, m."""
+        return np.concatenate([[0.0], np.cumsum(self._steps @ levers)])
 
     def _joints(self, sample: float) -> Array:
         k = min(int(sample), len(self._position) - 1)
@@ -78,10 +122,16 @@ class _Look:
             return np.asarray(self._position[k])
         return np.asarray((1.0 - share) * self._position[k] + share * self._position[k + 1])
 
-    def _keep(self, sample: float, one: Clearance) -> None:
-        kind = kind_of(one.other, self._links)
-        if kind not in self.nearest or one.distance < self.nearest[kind].clearance.distance:
-            self.nearest[kind] = Nearest(sample, one)
+    def _keep(self, near: Nearest) -> None:
+        kind = kind_of(near.clearance.other, self._links)
+        if kind not in self.nearest or near.margin < self.nearest[kind].margin:
+            self.nearest[kind] = near
+
+
+def _between(way: Array, one: float, other: float) -> float:
+    """Return how much of a way (T,) lies between two samples."""
+    places = np.interp([one, other], np.arange(len(way)), way)
+    return float(places[1] - places[0])
 
 
 def _in_doubt(look: _Look, samples: Array, limit: float) -> Iterator[float]:
@@ -90,8 +140,7 @@ def _in_doubt(look: _Look, samples: Array, limit: float) -> Iterator[float]:
     stretches = list(zip(samples[:-1].tolist(), samples[1:].tolist(), strict=True))
     while stretches:
         one, other = stretches.pop()
-        way = look.way(one, other)
-        if way <= _FINEST or 0.5 * (look.at(one) + look.at(other) - way) >= limit:
+        if look.proves(one, other, limit):
             continue
         middle = 0.5 * (one + other)
         yield middle

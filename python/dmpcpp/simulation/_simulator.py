@@ -12,7 +12,7 @@ from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot import FLOOR as FLOOR
-from dmpcpp.robot import ContactRules, InertiaRepair
+from dmpcpp.robot import ContactRules, InertiaRepair, Levers
 
 GRAVITY = -9.81
 """m/s^2 along z of the URDF's root."""
@@ -91,8 +91,8 @@ class Simulator(Protocol):
     """What is not looked at for contacts."""
     floor: float | None
     """Height of the ground in the frame of the URDF's root [m]; None for no ground."""
-    levers: Array
-    """(n,) how far each joint moves any point of the robot at most: m a rad, or 1 for one that slides."""
+    levers: Levers
+    """How far each joint moves points of links."""
     unjudged_links: tuple[str, ...]
     """Links that the arm does not move and whose shapes cannot be read: their contacts are not judged."""
     inertia_repairs: tuple[InertiaRepair, ...]
