@@ -3,13 +3,14 @@
 Of random placements only a few in a hundred carry a motion of a whole arm. So each candidate starts from a
 random configuration of the robot, which shall hold the middle pose of the motion; what the robot cannot
 reach anyway is dropped by a look at the positions its tip can take; then single poses are solved, those far
-apart first; and only what is left is followed from the first pose to the last. The best of these is
-improved by small changes, each judged by one pass along the path from the joints at its first pose.
+apart first; and only what is left is followed from the first pose to the last. Where none is carried, the
+candidates that miss least are changed until one is. The best is improved by small changes, each judged by
+one pass along the path from the joints at its first pose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -17,9 +18,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from dmpcpp import motion
-from dmpcpp._core import Arm, InverseKinematics
+from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._approach import approached, missed_by
 from dmpcpp.planning._candidates import drawn_through, far_apart, middle_of, neighbour
 from dmpcpp.planning._clearance import clear_of_itself, require_free_postures
 from dmpcpp.planning._joints import Engine, limit_factor
@@ -40,6 +42,8 @@ _COARSE = 24  # poses that stand for the motion in the first tests
 _FOLLOWED = 300  # candidates that are followed from end to end at most
 _ENOUGH = 8  # of them carried; no further ones are followed
 _MORE = 10  # times as many candidates, if none of the first is carried
+_NEAR, _CHANGED = 300, 6  # random candidates if none is carried, and those of them that are changed until one is
+_CHANGES = 300  # small ones of each, at most
 _IMPROVEMENTS = 300  # small changes tried on the best one; fewer on a long path:
 _IMPROVING_POSES = 100_000  # that are followed meanwhile, about
 _FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
@@ -100,7 +104,7 @@ def place(
     random = np.random.default_rng(seed)
     found, used = [], (0.0, 0.0)
     for used, count in _attempts(scale, search.smallest_scale, candidates):
-        found = search.carried(search.promising(random, used, count))
+        found = search.carried(search.promising(random, used, count) if count else search.near(random, used))
         if found:
             break
     if not found:
@@ -117,12 +121,16 @@ def place(
 def _attempts(
     scale: tuple[float, float] | None, smallest: float, count: int
 ) -> Iterator[tuple[tuple[float, float], int]]:
-    """Yield ranges of scale and numbers of candidates: as stated, or the usual range and then smaller ones."""
+    """Yield ranges of scale and numbers of candidates: as stated, or the usual range and then smaller ones.
+
+    Without any candidates (0) those that nearly carry the motion are changed until they do.
+    """
     usual = scale or _SCALE
     yield usual, count
     if scale is None and smallest < _SCALE[0]:
         yield (smallest, _SCALE[0]), count
         usual = (smallest, _SCALE[1])
+    yield usual, 0
     yield usual, _MORE * count
 
 
@@ -212,13 +220,26 @@ class _Search:
         able = (placement for placement in within if self._above_floor(placement) and self._solves(placement))
         return list(islice(able, _FOLLOWED))
 
-    def carried(self, promising: list[Placement]) -> list[_Carried]:
+    def near(self, random: np.random.Generator, scale: tuple[float, float]) -> Iterator[Placement]:
+        """Yield placements of which every coarse pose is solved, and most often the path, by changes of others.
+
+        The changes begin at the candidates that miss least.
+        """
+        middle = self.poses[self.coarse[0]]
+        drawn = list(drawn_through(middle, self.free, self.arm, random, scale, _NEAR))
+        for placement in sorted(drawn, key=self._missed)[:_CHANGED]:
+            within, missed = approached(placement, self._missed, random, scale, _CHANGES)
+            if missed <= 0.0:
+                yield approached(within, self._missed_on_the_way, random, scale, _CHANGES)[0]
+
+    def carried(self, promising: Iterable[Placement]) -> list[_Carried]:
         """Follow one after the other until enough are carried from end to end and accepted."""
         found: list[_Carried] = []
         for placement in promising:
-            start = self._start(placement)
-            carried = self._carry(placement, start) if start is not None else None
-            found += [carried] if carried else []
+            joints = self._followed(placement)
+            if joints.report.complete:
+                carried = self._carry(placement, joints.position[0], otherwise=joints)
+                found += [carried] if carried else []
             if len(found) == _ENOUGH:
                 break
         return found
@@ -241,7 +262,7 @@ class _Search:
         if self.most is not None and self.most.share == 1.0:
             return "what the joints could follow was not accepted. Try another seed."
         if self.closest is not None:
-            self._start(self.closest)
+            self._followed(self.closest)
         return self.most.describe(self.follow) if self.most else "no candidate could be tried."
 
     def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
@@ -258,21 +279,38 @@ class _Search:
         thirds = np.array_split(placement.apply(self.poses[self.coarse]), 3)
         return all(self.quick_solver.solve_many(third).solved == len(third) for third in thirds)
 
-    def _start(self, placement: Placement) -> Array | None:
-        """Search joints at the first pose from which the whole path can be followed."""
-        joints = self.solver.follow(placement.apply(self.poses), times=self.time, **EFFORT)
+    def _missed(self, placement: Placement) -> float:
+        poses = placement.apply(self.poses[self.coarse])
+        return missed_by(self.quick_solver.solve_many(poses), poses, self.floor)
+
+    def _missed_on_the_way(self, placement: Placement) -> float:
+        poses = placement.apply(self.poses)
+        return missed_by(self._followed(placement).report, poses, self.floor)
+
+    def _followed(self, placement: Placement) -> JointTrajectory:
+        """Search joints for the whole path, from any start."""
+        poses = placement.apply(self.poses)
+        joints = self.solver.follow(poses, times=self.time, **EFFORT)
         if self.most is None or joints.report.solved / len(self.time) > self.most.share:
-            self.most = Shortfall.of(joints, placement.apply(self.poses), self.arm, self._frame)
-        return joints.position[0] if joints.report.complete else None
+            self.most = Shortfall.of(joints, poses, self.arm, self._frame)
+        return joints
 
     def _frame(self, k: int) -> str:
         """Return which frame of the recording a pose that is followed is, for an error."""
         frame = int(np.searchsorted(self.recorded, self.time[k], side="right")) - 1
         return f"frame {frame} ({self.time[k]:.4g} s)"
 
-    def _carry(self, placement: Placement, start: Array, better_than: float = 0.0) -> _Carried | None:
-        """Follow the path from `start`; None unless it is carried, worth more than that, and accepted."""
+    def _carry(
+        self,
+        placement: Placement,
+        start: Array,
+        better_than: float = 0.0,
+        otherwise: JointTrajectory | None = None,
+    ) -> _Carried | None:
+        """Follow the path from `start`, or take the joints given; None unless they carry it better and are accepted."""
         joints = self.solver.follow(placement.apply(self.poses), times=self.time, start=start, thorough=False)
+        if otherwise is not None and not joints.report.complete:
+            joints = otherwise
         report = joints.report
         placement = replace(placement, start=start)
         slowdown = limit_factor(self.arm, joints)
