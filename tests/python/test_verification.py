@@ -425,6 +425,35 @@ def test_the_command_verifies_and_states_the_lag(files):
         assert "verified" in result.output and "recorded on a real arm" in " ".join(result.output.split())
 
 
+def test_arm_limits_and_what_is_followed_are_those_of_the_run_unless_stated(files):
+    config = (
+        '[demo]\narm = "panda"\nvelocity = "0.01"\ntool-speed = 1.5\nignore-contact = ["panda_link1,panda_link3"]\n'
+    )
+    (files.folder / "config.toml").write_text(config + 'follow = "position"\nseed = 4\nsimulator = "both"\n')
+    quiet = ("--simulator", "none", "--json")
+    summary = json.loads(command(files.folder, files.log, *quiet).stdout)
+    assert summary["limits"]["velocity"] == {"values": [0.01] * 7, "sources": ["user"] * 7}
+    assert summary["limits"]["tool_speed"] == 1.5 and summary["verdict"] == "fail"
+    assert not any(check["name"].startswith("tracking_angle") for check in summary["checks"])
+    shown = command(files.plan, files.log, "--simulator", "none")
+    said = (
+        "as in the run: --velocity 0.01, --tool-speed 1.5, --ignore-contact panda_link1,panda_link3, --follow position"
+    )
+    assert said in shown.output
+    for stated in (("--velocity", "3"), ("--arm", "panda", "--velocity", "3")):
+        summary = json.loads(command(files.folder, files.log, *quiet, *stated).stdout)
+        assert summary["limits"]["velocity"]["values"] == [3.0] * 7 and summary["limits"]["tool_speed"] == 1.5
+    (files.folder / "config.toml").write_text(config.replace("panda", "iiwa"))
+    assert json.loads(command(files.folder, files.log, *quiet, "--arm", "panda").stdout)["limits"]["tool_speed"] is None
+    assert command(files.folder, files.log).exit_code == 2  # the arm of the run has other joints
+
+
+def test_a_folder_with_a_config_that_is_none_is_refused_by_name(files):
+    (files.folder / "config.toml").write_text("[demo\n")
+    result = command(files.folder, files.log)
+    assert result.exit_code == 2 and "config.toml: not TOML" in result.output
+
+
 def test_the_joint_concerned_is_named_in_full_however_narrow_the_terminal():
     from dmpcpp.cli._tables import checks_table
     from dmpcpp.simulation import Check

@@ -5,17 +5,20 @@ from __future__ import annotations
 import difflib
 import json
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from dmpcpp import __version__
 from dmpcpp._atomic import write_text
 from dmpcpp.errors import FileError, InvalidArgument
 
-__all__ = ["configurable", "save_config"]
+__all__ = ["configurable", "options_of_run", "save_config"]
 
+_RUNS = ("imitate", "demo", "plan")
 _NOT_SAVED = frozenset({"as_json"})  # how a run is shown, not what it does
 
 
@@ -49,6 +52,36 @@ def save_config(path: Path) -> None:
         ),
     ]
     write_text(path, "\n".join(lines) + "\n")
+
+
+def options_of_run(folder: Path, stated: Mapping[str, Any], same: str) -> dict[str, Any]:
+    """Return options with which the run in a folder was made, where the running command was not given them.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the run; without its config.toml nothing is returned.
+    stated : mapping
+        Options of the running command, with their values: those that are looked for.
+    same : str
+        One of them: where another value is given for it than the run had, its other options do not fit and are left.
+    """
+    path = folder / "config.toml"
+    if not path.is_file():
+        return {}
+    context = click.get_current_context()
+    tables = _tables(path)
+    table = next((tables[name] for name in _RUNS if isinstance(tables.get(name), dict)), {})
+    parameters, keys = {p.name: p for p in context.command.params}, _keys(context.command)
+    known = {keys[key]: value for key, value in table.items() if keys.get(key) in stated}
+    given = {name for name in stated if context.get_parameter_source(name) is not ParameterSource.DEFAULT}
+    if same in given and known.get(same) not in (stated[same], json.loads(_toml(stated[same]))):
+        return {}
+    return {
+        name: parameters[name].type_cast_value(context, value)
+        for name, value in known.items()
+        if name not in given and value != stated[name]
+    }
 
 
 def _take(context: click.Context, _: click.Parameter, path: Path | None) -> None:
@@ -89,17 +122,21 @@ def _require_type(context: click.Context, parameter: click.Parameter, value: Any
 
 
 def _table(path: Path, command: str) -> dict[str, Any]:
-    try:
-        found = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FileError(f"--config: {path}: cannot be read ({error.strerror or error}).") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InvalidArgument(f"--config: {path}: not TOML ({error}).") from None
+    found = _tables(path)
     table = found.get(command)
     if not isinstance(table, dict):
         tables = ", ".join(f"[{name}]" for name in found) or "nothing"
         raise InvalidArgument(f"--config: {path}: holds {tables}, expected a table [{command}].")
     return table
+
+
+def _tables(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FileError(f"--config: {path}: cannot be read ({error.strerror or error}).") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InvalidArgument(f"--config: {path}: not TOML ({error}).") from None
 
 
 def _toml(value: Any) -> str:
@@ -108,6 +145,8 @@ def _toml(value: Any) -> str:
     if isinstance(value, Path):
         return _toml(str(value.absolute()))
     if isinstance(value, str):
-        absolute = Path(value).absolute() if value.endswith(".urdf") and Path(value).is_file() else value
+        absolute = (
+            Path(value).absolute() if value.endswith((".urdf", ".xacro", ".xml")) and Path(value).is_file() else value
+        )
         return json.dumps(str(absolute), ensure_ascii=False).replace("\x7f", "\\u007f")
     return json.dumps(value)  # true, false and numbers are written alike in both

@@ -14,6 +14,8 @@ import click
 
 from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines
+from dmpcpp.cli._config import options_of_run
+from dmpcpp.cli._flags import flags_of
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE
@@ -69,6 +71,8 @@ def verify(
 ) -> None:
     """Compare LOG, recorded on a real arm, with PLAN: the joints.csv of `dmpcpp imitate`, or its folder.
 
+    In the folder of a run, arm, limits, contacts and what is followed are as in that run unless stated.
+
     LOG is a CSV with the columns time, <joints> and optionally <joint>_vel and <joint>_torque, or a ROS bag with
     sensor_msgs/JointState. Its time lag is estimated from the joints: the two clocks need not agree.
 
@@ -78,6 +82,8 @@ def verify(
 
     tolerances = _tolerances(stated)
     joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
+    as_run = options_of_run(plan if plan.is_dir() else plan.parent, arm, same="arm")
+    arm |= as_run
     robot, around = taken_arm(arm), taken_surroundings(arm)
     engine = simulation.ENGINES.get(simulator)
     options = {"time_unit": time_unit, "angle_unit": angle_unit, "topic": topic}
@@ -94,9 +100,16 @@ def verify(
     if as_json:
         click.echo(json.dumps(result.summary(), indent=2, allow_nan=False))
     else:
+        if as_run:
+            typed = flags_of(click.get_current_context().command)
+            click.echo(f"as in the run: {', '.join(f'{typed[name]} {_shown(as_run[name])}' for name in as_run)}")
         _print(result)
     if not result.ok:
         sys.exit(FAILED)
+
+
+def _shown(value: Any) -> str:
+    return ", ".join(map(str, value)) if isinstance(value, tuple | list) else str(value)
 
 
 def _tolerances(stated: tuple[str, ...]) -> Tolerances:
