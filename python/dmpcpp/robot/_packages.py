@@ -94,9 +94,12 @@ def find_mesh(filename: str, folder: str, link: str = "") -> Path:
             return found
     where = f"link '{link}': " if link else ""
     if scheme:
+        holder = next((place for place in _above(folder) if _as_written(place / scheme[3]) is not None), None)
         raise InvalidArgument(
             f"arm.urdf: {where}no mesh '{filename}': no package '{scheme[2]}' that has it, by ROS_PACKAGE_PATH, "
-            f"AMENT_PREFIX_PATH or above '{folder or '.'}'. State package_path={scheme[2]}=DIR."
+            f"AMENT_PREFIX_PATH or above '{folder or '.'}'. "
+            + (f"It is in '{holder}'; if that is the package, state" if holder else "State")
+            + f" package_path={scheme[2]}={holder or 'DIR'}."
         )
     raise InvalidArgument(
         f"arm.urdf: {where}no mesh '{filename}' in '{Path(folder or '.').absolute()}'. "
