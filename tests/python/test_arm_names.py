@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dmpcpp import InvalidArgument, arms
-from dmpcpp.errors import MissingDependency
+from dmpcpp.errors import FileError, MissingDependency
 
 from tests.python.command import run
 from tests.python.urdfs import chain, robot
@@ -44,6 +44,25 @@ def descriptions(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.syspath_prepend(str(package.parent))
     monkeypatch.setenv("ROBOT_DESCRIPTIONS_CACHE", str(tmp_path / "cache"))
     return tmp_path / "cache"
+
+
+def test_what_the_cache_holds_is_not_cloned_again_and_a_failed_clone_is_one_sentence(descriptions: Path) -> None:
+    """The package breaks when it is imported, as it does without a network."""
+    package = next(Path(entry) for entry in sys.path if (Path(entry) / "robot_descriptions").is_dir())
+    broken = "raise RuntimeError(\"Cmd('git') failed\\n  stderr: 'fatal: no such host'\")\n"
+    (package / "robot_descriptions" / "own_arm_description.py").write_text(broken)
+    with pytest.raises(
+        FileError, match=r"own_arm_description: cannot be cloned into '.*cache' \(fatal: no such host\)"
+    ):
+        arms.fetch("own_arm_description")
+    urdf = 'URDF_PATH: str = _path.join(PACKAGE_PATH, "own.urdf")'
+    (package / "robot_descriptions" / "own_arm_description.py").write_text(MODULE.format(path=urdf))
+    folder = descriptions / "own" / "own_description"
+    folder.mkdir(parents=True)
+    (folder / "own.urdf").write_text(robot(chain(6)))
+    assert arms.fetch("own_arm_description") == folder / "own.urdf"
+    with pytest.raises(MissingDependency, match="has no other_description"):
+        arms.fetch("other_description")
 
 
 @pytest.mark.parametrize("name", ["own_arm", "OWN-ARM", "ownarm", "robot_descriptions:own_arm", "own_arm_description"])

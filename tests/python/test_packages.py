@@ -38,9 +38,11 @@ def test_a_folder_above_is_the_package_by_its_name_or_its_manifest(tmp_path: Pat
 
 def test_a_file_of_another_package_is_never_taken(tmp_path: Path) -> None:
     foreign = package(tmp_path, "foreign", manifest="foreign")
+    with pytest.raises(InvalidArgument, match=r"no package 'own_description'.*State package_path=own_description=DIR"):
+        find_mesh(MESH, str(foreign / "urdf"), "l1")
     (tmp_path / "meshes").mkdir()
     (tmp_path / "meshes" / "part.stl").write_text("solid")
-    with pytest.raises(InvalidArgument, match=r"no package 'own_description'.*package_path=own_description=DIR"):
+    with pytest.raises(InvalidArgument, match=rf"It is in '{tmp_path}'; if .*package_path=own_description={tmp_path}"):
         find_mesh(MESH, str(foreign / "urdf"), "l1")
     with pytest.raises(InvalidArgument, match="no mesh 'meshes/part.stl'"):
         find_mesh("meshes/part.stl", str(tmp_path / "robots" / "own"))

@@ -94,7 +94,7 @@ def find_mesh(filename: str, folder: str, link: str = "") -> Path:
             return found
     where = f"link '{link}': " if link else ""
     if scheme:
-        holder = next((place for place in _above(folder) if _as_written(place / scheme[3]) is not None), None)
+        holder = _without_manifest_holding(scheme[3], folder)
         raise InvalidArgument(
             f"arm.urdf: {where}no mesh '{filename}': no package '{scheme[2]}' that has it, by ROS_PACKAGE_PATH, "
             f"AMENT_PREFIX_PATH or above '{folder or '.'}'. "
@@ -105,6 +105,12 @@ def find_mesh(filename: str, folder: str, link: str = "") -> Path:
         f"arm.urdf: {where}no mesh '{filename}' in '{Path(folder or '.').absolute()}'. "
         "Load the arm from the URDF's own folder."
     )
+
+
+def _without_manifest_holding(inside: str, folder: str) -> Path | None:
+    """Return the folder above the URDF that holds a file and does not say which package it is."""
+    above = (place for place in _above(folder) if not (place / "package.xml").is_file())
+    return next((place for place in above if _as_written(place / inside) is not None), None)
 
 
 def _in_packages(kind: str, name: str, inside: str, folder: str) -> Iterator[Path]:

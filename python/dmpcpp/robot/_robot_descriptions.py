@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from dmpcpp.errors import MissingDependency
+from dmpcpp.errors import FileError, MissingDependency
 
 __all__ = ["Cached", "cached", "fetch", "licence_of", "module_of"]
 
@@ -69,7 +69,7 @@ def cached(module: str) -> Cached | None:
         return None
     text = (folder / f"{module}.py").read_text(encoding="utf-8")
     repository = _repository(text)
-    clone = _cache() / _cache_path(folder, repository) if repository else None
+    clone = _clone(folder, repository) if repository else None
     if clone is None or not clone.is_dir():
         return None
     says = _run(text, module, clone)
@@ -83,23 +83,39 @@ def cached(module: str) -> Cached | None:
 
 
 def fetch(module: str) -> Path:
-    """Clone what a description needs into the cache of robot_descriptions, as that package does.
+    """Clone what a description needs into the cache of robot_descriptions, as that package does; return its path.
+
+    What the cache holds already is not cloned again.
 
     Raises
     ------
     MissingDependency
         robot_descriptions is not installed.
+    FileError
+        The repository cannot be cloned: there is no network, or no git.
     """
+    found = cached(module)
+    if found is not None:
+        return found.path
     try:
         importlib.import_module(f"robot_descriptions.{module}")
     except ImportError as error:
         raise MissingDependency(
             f'robot_descriptions has no {module}, or is not installed ({error}): pip install "dmpcpp[arms]".'
         ) from None
+    except Exception as error:  # git and the network have errors of their own
+        raise FileError(f"{module}: cannot be cloned into '{_cache()}' ({_short(error)}).") from None
     found = cached(module)
     if found is None:
         raise MissingDependency(f"robot_descriptions: {module} was fetched and holds no URDF.")
     return found.path
+
+
+def _short(error: Exception) -> str:
+    """Return the line of an error that says what happened: of git the one that begins with fatal."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
+    fatal = next((line[line.index("fatal: ") :] for line in lines if "fatal: " in line), lines[-1])
+    return fatal.strip("'")
 
 
 def _folder() -> Path | None:
@@ -118,6 +134,12 @@ def _repository(text: str) -> str | None:
             first = node.args[0]
             return first.value if isinstance(first, ast.Constant) and isinstance(first.value, str) else None
     return None
+
+
+def _clone(folder: Path, repository: str) -> Path:
+    """Return where a repository is cloned to; that of another commit (ROBOT_DESCRIPTION_COMMIT) lies beside it."""
+    name, commit = _cache_path(folder, repository), os.environ.get("ROBOT_DESCRIPTION_COMMIT")
+    return _cache() / (f"{name}-{commit}/{name}" if commit else name)
 
 
 def _cache_path(folder: Path, repository: str) -> str:
