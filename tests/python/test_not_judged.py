@@ -260,6 +260,10 @@ def test_a_small_part_without_mass_is_a_note_and_a_large_one_is_not_judged(side,
         assert log.repaired_links == ()
 
 
+def test_a_shape_without_volume_weighs_nothing():
+    assert executed(on_the_tip("0")).verdict["inertia"].value == 0.0
+
+
 @pytest.mark.parametrize(
     ("mass", "change", "result"),
     [("1e-9", None, "holds"), ("0.04", 0.04 / 1.04, "holds"), ("0.1", 0.1 / 1.1, "not judged")],

@@ -34,7 +34,8 @@ def shares_without_mass(robot: ET.Element, arm: Arm, moved: frozenset[str]) -> d
     found: dict[str, float] = {}
     for group in set(groups_of(robot, lambda joint: joint.get("name") not in arm.joint_names).values()):
         stated = sum(_mass(links[name]) for name in group)
-        lacking = {name: weight for name in sorted(group & moved) if (weight := _unstated(links[name], arm.folder))}
+        weights = {name: _unstated(links[name], arm.folder) for name in sorted(group & moved)}
+        lacking = {name: weight for name, weight in weights.items() if weight is not None}
         share = sum(lacking.values()) / stated if stated > 0.0 else math.inf
         found |= dict.fromkeys(lacking, share)
     return found
@@ -69,11 +70,13 @@ def _mass(link: ET.Element) -> float:
     return mass if 0.0 < mass < math.inf else 0.0
 
 
-def _unstated(link: ET.Element, folder: str) -> float:
-    """Return the mass of a link that states no inertia, kg: its own, or that of its shapes in steel; else 0."""
+def _unstated(link: ET.Element, folder: str) -> float | None:
+    """Return the mass of a link that states no inertia, kg: its own, or that of its shapes in steel; else None."""
     mass = _mass(link)
     if mass > 0.0:
-        return 0.0 if _read_inertia(link).any() else mass
+        return None if _read_inertia(link).any() else mass
+    if link.find("collision") is None:
+        return None
     try:
         return _STEEL * sum(volume for volume, _, _ in solids_of(link, folder))
     except InvalidArgument:  # a mesh that cannot be read, which is refused elsewhere

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 from dmpcpp._typing import Array
 from dmpcpp.robot._convex_pieces import convex_pieces
@@ -51,7 +51,10 @@ def solid(points: Array) -> tuple[float, Array, Array]:
 
     It is cut into tetrahedra about one point: the second moment of each is a sum over its corners.
     """
-    hull = ConvexHull(points)
+    try:
+        hull = ConvexHull(points)
+    except QhullError:  # flat
+        return 0.0, points.mean(axis=0), np.zeros((3, 3))
     apex = points[hull.vertices].mean(axis=0)
     corners = points[hull.simplices] - apex  # (F, 3, 3)
     volumes = np.abs(np.linalg.det(corners)) / 6.0
