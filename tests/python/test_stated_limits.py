@@ -1,5 +1,6 @@
 """Limits and a payload from the user: by number, list, name, file and option."""
 
+import importlib.util
 import json
 
 import numpy as np
@@ -205,6 +206,34 @@ def test_a_run_is_judged_by_the_limits_of_its_options(tmp_path):
     assert summary["limits"]["payload"] == 0.5
     assert summary["assumed"] == ["acceleration limit 10 rad/s^2 of j3, j4, j5, j6"]
     assert 'velocity = "2"' in (tmp_path / "out" / "config.toml").read_text()
+
+
+def test_a_run_is_judged_by_the_limits_of_a_file_and_options_beside_it_win(tmp_path):
+    pytest.importorskip("pybullet")
+    write(tmp_path, limit=BARE)
+    joint = "{max_velocity: 1.5, max_acceleration: 6, max_effort: 70, max_jerk: 900}"
+    lines = [f"  j{k}: {joint}" for k in range(1, 7)]
+    name, text = (
+        "joint_limits.yaml",
+        "joint_limits:\n" + "\n".join(lines) + "\ncartesian_limits: {max_trans_vel: 0.4}\n",
+    )
+    if importlib.util.find_spec("yaml") is None:
+        rows = "".join(f"j{k} = {{{joint[1:-1].replace(':', ' =')}}}\n" for k in range(1, 7))
+        name, text = "limits.toml", f"[cartesian_limits]\nmax_trans_vel = 0.4\n[joint_limits]\n{rows}"
+    (tmp_path / name).write_text(text)
+    stated = ("--limits", name, "--velocity", "j1=1.25", "--no-report", "--out", "out", "--json")
+    done = run("demo", "--arm", "six.urdf", *stated, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    summary = json.loads(done.stdout)
+    assert summary["verdict"] == "pass" and summary["assumed"] == [] and summary["not_judged"] == []
+    assert summary["limits"]["velocity"] == {"values": [1.25] + [1.5] * 5, "sources": ["user"] * 6}
+    for kind, value in (("acceleration", 6.0), ("effort", 70.0), ("jerk", 900.0)):
+        assert summary["limits"][kind] == {"values": [value] * 6, "sources": ["user"] * 6}
+    found = {check["name"]: check for check in summary["checks"]}
+    assert 0.0 < found["tool_speed"]["value"] <= found["tool_speed"]["limit"] == 0.4
+    assert 0.0 < found["jerk_ratio"]["value"] <= 1.0
+    done = run("verify", "out", "out/joints.csv", "--json", cwd=tmp_path)  # the plan as its own log
+    assert json.loads(done.stdout)["limits"]["jerk"]["values"] == [900.0] * 6, done.stderr
 
 
 @pytest.mark.parametrize(
