@@ -208,12 +208,9 @@ class _Search:
 
     def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the largest candidates of which every coarse pose can be solved, the largest first."""
-        joints = random_postures(self.arm, _CLOUD, random)
-        reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
-        # Twice the usual distance between neighbours in the cloud: closer than that, the arm reaches.
-        near = 2.0 * float(np.median(reached.query(reached.data[:500], k=2)[0][:, 1]))
+        reach = self._reach(random)
         candidates = list(drawn_through(self.poses[self.coarse[0]], self.free, self.arm, random, scale, count))
-        shares = [self._share_near(placement, reached, near) for placement in candidates]
+        shares = [self._share_near(placement, *reach) for placement in candidates]
         self.closest = candidates[int(np.argmax(shares))]
         within = [placement for placement, share in zip(candidates, shares, strict=True) if share == 1.0]
         within.sort(key=lambda placement: -placement.scale)
@@ -223,11 +220,15 @@ class _Search:
     def near(self, random: np.random.Generator, scale: tuple[float, float]) -> Iterator[Placement]:
         """Yield placements of which every coarse pose is solved, and most often the path, by changes of others.
 
-        The changes begin at the candidates that miss least.
+        The changes begin at the candidates that miss least, of those whose positions are within reach. Nothing where
+        paths could be followed and were not accepted: that is no matter of the wrist.
         """
-        middle = self.poses[self.coarse[0]]
-        drawn = list(drawn_through(middle, self.free, self.arm, random, scale, _NEAR))
-        for placement in sorted(drawn, key=self._missed)[:_CHANGED]:
+        if self.most is not None and self.most.share == 1.0:
+            return
+        middle, reach = self.poses[self.coarse[0]], self._reach(random)
+        drawn = drawn_through(middle, self.free, self.arm, random, scale, _NEAR)
+        within_reach = [placement for placement in drawn if self._share_near(placement, *reach) == 1.0]
+        for placement in sorted(within_reach, key=self._missed)[:_CHANGED]:
             within, missed = approached(placement, self._missed, random, scale, _CHANGES)
             if missed <= 0.0:
                 yield approached(within, self._missed_on_the_way, random, scale, _CHANGES)[0]
@@ -264,6 +265,12 @@ class _Search:
         if self.closest is not None:
             self._followed(self.closest)
         return self.most.describe(self.follow) if self.most else "no candidate could be tried."
+
+    def _reach(self, random: np.random.Generator) -> tuple[cKDTree, float]:
+        """Return random positions of the tip, and how near to one the arm reaches: twice their usual distance."""
+        joints = random_postures(self.arm, _CLOUD, random)
+        reached = cKDTree(self.arm.forward_kinematics(joints)[:, :3, 3])
+        return reached, 2.0 * float(np.median(reached.query(reached.data[:500], k=2)[0][:, 1]))
 
     def _share_near(self, placement: Placement, reached: cKDTree, near: float) -> float:
         """Return the share of the coarse positions that the tip can take, a little less if one is too low."""
