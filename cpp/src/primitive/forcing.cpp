@@ -127,7 +127,7 @@ void ForcingTerm::evaluate(double s, double next, double* psi, double* f, double
 
 void ForcingTerm::evaluate(double s, double* psi, double* f) const noexcept { evaluate(s, s, psi, f, f); }
 
-void ForcingTerm::evaluate_window(double s, double* psi, double* f) const noexcept {
+[[gnu::noinline]] void ForcingTerm::evaluate_window(double s, double* psi, double* f) const noexcept {
   const GaussianBasis::Window window = basis_.proportional(s, psi);
   weighted_mean(psi, window.count, row(window.first), dimension(), basis_.gate(s), f);
 }

@@ -148,13 +148,17 @@ class Runner {
   /// Outputs from the state as it is; false, and the last ones stay, if they are not finite.
   bool publish() noexcept {
     const bool on = force_after_end_ || !phase_.past_end();
-    const bool shifted = offset_ != nullptr && offset_->active() && offset_->at(phase_.s(), shift_.data());
+    if (offset_ != nullptr && offset_->active()) return publish_shifted(on);
+    return publish_at(phase_.s(), on, phase_.speed(), phase_.speed_rate());
+  }
+  [[gnu::noinline]] bool publish_shifted(bool on) noexcept {
+    const bool shifted = offset_->at(phase_.s(), shift_.data());
     if (shifted && !shift_over_time()) return false;
     if (!publish_at(phase_.s(), on, phase_.speed(), phase_.speed_rate())) return false;
     if (shifted) system_.displace({shift_.row(0).data(), shift_.row(1).data(), shift_.row(2).data()});
     return true;
   }
-  bool publish_at(double s, bool on, double speed, double speed_rate) noexcept {
+  [[gnu::always_inline]] bool publish_at(double s, bool on, double speed, double speed_rate) noexcept {
     if (!on || !evaluated(s)) evaluate(kEnd, s, on);
     evaluated_at_ = on ? s : kNowhere;
     system_.set_phase(s);
@@ -164,7 +168,7 @@ class Runner {
     return true;
   }
   /// Takes the derivatives of the offset from phase to time; false unless their products stay finite.
-  [[gnu::noinline]] bool shift_over_time() noexcept {
+  bool shift_over_time() noexcept {
     const double speed = phase_.speed();
     shift_.row(2) = speed * speed * shift_.row(2) + phase_.speed_rate() * shift_.row(1);
     shift_.row(1) *= speed;
