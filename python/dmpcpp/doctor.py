@@ -74,6 +74,7 @@ _PACKAGES = (  # module, distribution, what for, extra, needed
     ("zarr", "zarr", "UMI data sets", "datasets", False),
     ("mcap", "mcap", "Foxglove MCAP recordings", "datasets", False),
     ("mcap_protobuf", "mcap-protobuf-support", "Foxglove MCAP recordings", "datasets", False),
+    ("pylibfranka", "pylibfranka", "dmpcpp run --robot franka://HOST; Python up to 3.12", "franka", False),
     ("imageio_ffmpeg", "imageio-ffmpeg", "--video", "video", False),
     ("distributed", "distributed", "batches on a cluster", "cluster", False),
 )

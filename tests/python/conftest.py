@@ -61,6 +61,7 @@ _LEFT_OUT = (
     (r"DMPCPP_RECORDINGS", "needs recordings of people", "DMPCPP_RECORDINGS=FOLDER scripts/test.sh"),
     (r"pybullet_data", "needs the arms that ship with PyBullet", "scripts/test.sh"),
     (r"pybullet|extra `sim`", "needs PyBullet", "scripts/test.sh, without --without-bullet"),
+    (r"extra `franka`", "needs the extra franka", "pip install 'dmpcpp[franka]'"),
     (r"Chromium", "needs Chromium", "apt install chromium, then scripts/test.sh"),
     (r"'distributed", "needs the extra cluster", "scripts/test.sh --with cluster"),
     (r"'(sphinx|myst|furo)", "needs the extra docs", "scripts/test.sh --with docs"),

@@ -54,7 +54,7 @@ def test_a_fitted_model_is_planned_for_the_arm_it_was_placed_for(tmp_path):
     text = ",".join(map(str, goal))
     done = run("plan", "reach.json", "--goal", text, "--duration", "3", "--out", "plan", "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
-    panda, joints = arms.find("panda"), export.read_joints(tmp_path / "plan" / "joints.csv")
+    panda, joints = arms.find("panda"), export.read_joints(tmp_path / "plan" / "joints.csv").of_motion()
     reached = panda.forward_kinematics(joints.position)
     assert np.abs(reached[-1, :3, 3] - goal).max() < 2e-3
     assert np.abs(reached - export.read_plan(tmp_path / "plan" / "plan.npz").pose).max() < 1e-4

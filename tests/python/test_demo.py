@@ -55,7 +55,7 @@ def test_demo_is_verified(arm, tmp_path):
     # What was written is what was judged, seen by other means.
     from dmpcpp import arms
 
-    plan, joints = export.read_plan(out / "plan.npz"), export.read_joints(out / "joints.csv")
+    plan, joints = export.read_plan(out / "plan.npz"), export.read_joints(out / "joints.csv").of_motion()
     robot = arms.find(arm)
     assert np.abs(robot.forward_kinematics(joints.position) - plan.pose).max() <= 1e-5
     assert (joints.position >= robot.lower).all() and (joints.position <= robot.upper).all()
@@ -228,4 +228,5 @@ def test_an_unreachable_path_fails_its_checks_and_says_where(tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     failed = {check["name"] for check in summary["checks"] if not check["ok"]}
     assert summary["verdict"] == "fail" and "ik_position_residual" in failed
-    assert "not verified: " in done.stdout and "written to out/; do not run its joints.csv on a robot" in done.stdout
+    assert "not verified: " in done.stdout and "for the robot: nothing, as it is not verified" in done.stdout
+    assert not (tmp_path / "out" / "joints.csv").exists()

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from dmpcpp import arms, export
+from dmpcpp import arms, export, sending
 from dmpcpp.errors import FileError, InvalidArgument
 
 WRITERS = {
@@ -135,6 +135,26 @@ def test_ros_trajectories_end_at_rest_and_begin_after_now(kind, tmp_path):
         WRITERS[kind][0](tmp_path / "m", reach(), lead=0)
 
 
+def test_the_goal_of_an_action_has_tolerances_and_says_how_it_is_sent(tmp_path):
+    yaml = pytest.importorskip("yaml")
+    pytest.importorskip("pybullet_data")
+    arm = arms.find("iiwa")
+    written = reach(arm.joint_names)
+    export.write_ros2_goal(tmp_path / "goal.yaml", written, arm, lead=3.0)
+    text = (tmp_path / "goal.yaml").read_text()
+    goal = yaml.safe_load(text)
+    assert list(goal) == ["trajectory", "path_tolerance", "goal_tolerance", "goal_time_tolerance"]
+    assert [one["name"] for one in goal["path_tolerance"]] == list(arm.joint_names)
+    assert {one["position"] for one in goal["goal_tolerance"]} == {0.01}
+    assert goal["trajectory"]["points"][0]["time_from_start"] == {"sec": 3, "nanosec": 0}
+    first, second = text.splitlines()[:2]
+    near = sending.farthest(arm, 3.0)
+    assert f"3 s after the controller gets this. The robot must stand within {near:.2g} rad" in first
+    assert second.startswith("# ros2 action send_goal /joint_trajectory_controller/follow_joint_trajectory ")
+    way = sending.approach(arm, np.zeros(7), np.full(7, near))
+    assert way.time[-1] == pytest.approx(3.0, abs=0.02)
+
+
 @pytest.mark.parametrize("line", ["junk", "- positions: [1, x]", "- positions: [1.0]", "points: 3"])
 def test_a_damaged_yaml_is_refused(line, tmp_path):
     path = tmp_path / "m.yaml"
@@ -156,7 +176,8 @@ def test_servoj_follows_the_motion_at_even_steps_to_its_last_joints(period, tmp_
     s = time / 2.0
     np.testing.assert_allclose(joints[:, 5], 0.3 * s**3 * (10 - 15 * s + 6 * s**2), atol=1e-7)
     lines = (tmp_path / "m.script").read_text().splitlines()
-    assert lines[1] == "def dmpcpp_motion():" and lines[2].startswith("  movej([0.0, ")
+    assert lines[0].startswith("# First the robot goes straight in joint space, at 0.3 rad/s")
+    assert lines[2] == "def dmpcpp_motion():" and lines[3].startswith("  movej([0.0, ")
     assert lines[-3:] == ["  stopj(2.0)", "end", "dmpcpp_motion()"]
 
 

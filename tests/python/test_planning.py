@@ -82,7 +82,7 @@ def test_a_fast_motion_is_slowed_to_its_limits_with_two_percent_to_spare(arm, mo
 def test_a_motion_that_may_not_be_slowed_fails_its_check(arm, model):
     found = planning.plan(model, arm, duration=0.2, slow_down=False)
     assert found.slowdown == 1.0 and found.joints.time[-1] == pytest.approx(0.2)
-    assert {check.name for check in found.failed} == {"velocity_ratio", "acceleration_ratio"}
+    assert {check.name for check in found.failed} == {"velocity_ratio", "acceleration_ratio", "robot_ready"}
 
 
 def test_joints_keep_two_milliradians_off_their_limits_where_the_path_allows():

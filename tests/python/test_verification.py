@@ -10,13 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from dmpcpp import arms, export, simulation, verification
+from dmpcpp import arms, export, sending, simulation, verification
 from dmpcpp.cli import main
 from dmpcpp.errors import FileError, InvalidArgument
 from dmpcpp.simulation import Bullet, Disturbance, Tolerances
 from dmpcpp.verification import JointLog
 
-from benchmarks.joint_motions import HOME, reach, trajectory
+from benchmarks.joint_motions import HOME, reach, swing, trajectory
 
 PANDA = arms.find("panda")
 NAMES = tuple(PANDA.joint_names)
@@ -82,7 +82,7 @@ def test_a_sound_run_is_verified_with_the_measures_of_the_simulated_one(plan, ex
     for name in ("torque_ratio", "joint_margin", "velocity_ratio"):
         assert found[name] == pytest.approx(simulated[name], rel=1e-2)
     assert {"log_coverage", "log_gap", "path_self_clearance", "path_floor_clearance"} <= set(found)
-    assert result.log.mode == "recorded" and "real arm" in result.log.caveat
+    assert result.log.mode == "recorded" and "by the robot" in result.log.caveat
     assert result.velocity_margin == pytest.approx(1.0 - found["velocity_ratio"], rel=1e-9)
     json.dumps(result.summary(), allow_nan=False)
 
@@ -422,7 +422,7 @@ def test_the_command_verifies_and_states_the_lag(files):
         result = command(plan, files.log)
         assert result.exit_code == 0, result.output
         assert "plan starts at 0.0137 s" in result.output
-        assert "verified" in result.output and "recorded on a real arm" in " ".join(result.output.split())
+        assert "verified" in result.output and "recorded by the robot" in " ".join(result.output.split())
 
 
 def test_arm_limits_and_what_is_followed_are_those_of_the_run_unless_stated(files):
@@ -494,3 +494,37 @@ def test_wrong_usage_is_one_line_and_exit_status_2(files, words, message):
     assert result.exit_code == 2
     assert message in result.output
     assert "Traceback" not in result.output
+
+
+# ---- logs of other programs ------------------------------------------------------------------------------
+
+
+def test_a_log_of_libfranka_is_read_by_its_columns(tmp_path):
+    names = [f"fr3_joint{k + 1}" for k in range(7)]
+    time = np.arange(50)  # ms
+    q, dq, tau = (np.outer(time, np.arange(1.0, 8.0)) * size for size in (1e-3, 1.0, 0.1))
+    header = ["time", "success_rate"] + [f"state.{what}[{k}]" for what in ("q", "q_d", "dq", "tau_J") for k in range(7)]
+    rows = np.column_stack([time, np.ones(50), q, q + 1.0, dq, tau])
+    lines = [",".join(header), *(",".join(map(repr, row)) for row in rows.tolist())]
+    (tmp_path / "log.csv").write_text("\n".join(lines))
+    log = verification.read_log(tmp_path / "log.csv", joints=names)
+    np.testing.assert_allclose(log.time, 1e-3 * time)
+    for read, written in ((log.position, q), (log.velocity, dq), (log.torque, tau)):
+        np.testing.assert_array_equal(read, written)
+    assert log.joint_names == tuple(names) and "times in ms" in log.notes[0]
+    with pytest.raises(InvalidArgument, match="7 joints without names"):
+        verification.read_log(tmp_path / "log.csv", joints=names[:6])
+
+
+def test_planned_joints_are_said_to_be_no_recording(tmp_path):
+    sent = sending.from_rest_to_rest(PANDA, swing(PANDA, 1.0))
+    export.write_joints(tmp_path / "joints.csv", sent)
+    log = verification.read_log(tmp_path / "joints.csv")
+    assert log.joint_names == NAMES
+    assert any("planned joints, nothing that was recorded" in note for note in log.notes)
+    plan = export.read_joints(tmp_path / "joints.csv")
+    verified = verification.verify(PANDA, plan, log)
+    assert verified.lag == pytest.approx(0.0, abs=1e-6)  # of the motion's first sample, behind the lead-in
+    inside = verified.log.time[verified.log.motion]
+    assert inside[0] >= -1e-9 and inside[-1] <= plan.of_motion().time[-1] + 1e-9
+    assert verified["settle_error"].value < 1e-6  # at the end of the lead-out, where the arm stands

@@ -1,5 +1,5 @@
-"""The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | verify | view |
-report | batch | arms | check-urdf | doctor | fetch | example`.
+"""The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | run | verify |
+view | report | batch | arms | check-urdf | doctor | fetch | example`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -17,6 +17,7 @@ from dmpcpp.cli._imitation import demo, imitate
 from dmpcpp.cli._inspection import inspect
 from dmpcpp.cli._learning import fit, plan
 from dmpcpp.cli._reproduction import reproduce
+from dmpcpp.cli._run import run
 from dmpcpp.cli._show import report, view
 from dmpcpp.cli._verification import verify
 
@@ -31,6 +32,7 @@ _COMMANDS = (
     reproduce,
     grasp,
     generality,
+    run,
     verify,
     view,
     report,

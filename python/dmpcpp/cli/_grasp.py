@@ -14,7 +14,8 @@ import click
 
 from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._arm_options import follow_option
-from dmpcpp.cli._group import FAILED
+from dmpcpp.cli._group import FAILED, refuse_file
+from dmpcpp.cli._robot_files import export_option, print_written
 from dmpcpp.cli._tables import mark, note_style, number
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
@@ -77,6 +78,12 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
     metavar="FILE",
     help="Write a film (.mp4, .gif) or still (.png).",
 )
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Folder for summary.json and, if the bottle is held up, the arm's joints.csv.",
+)
+@export_option
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON instead of the table.")
 def grasp(
     x: float | None,
@@ -88,6 +95,8 @@ def grasp(
     seed: int | None,
     follow: str | None,
     video: Path | None,
+    out: Path | None,
+    formats: tuple[str, ...],
     as_json: bool,
     **recording: Any,
 ) -> None:
@@ -97,6 +106,7 @@ def grasp(
 
     Example: dmpcpp grasp --x 0.45 --y 0.1 --video grasp.mp4
     """
+    from dmpcpp import export
     from dmpcpp import grasp as task
     from dmpcpp.grasp import film, refuse_format
     from dmpcpp.robot import arms
@@ -104,7 +114,13 @@ def grasp(
     if video:
         refuse_format(video)
     bottle = _bottle({"x": x, "y": y, "yaw": yaw, "height": height}, mass, friction, seed)
-    planner = task.Planner(_reach(**recording), arms.find("panda"), follow=follow)
+    panda = arms.find("panda")
+    if formats and out is None:
+        raise InvalidArgument("--export: it needs a folder. State --out FOLDER.")
+    if out:
+        refuse_file(out)
+    export.chosen(formats, panda)  # what cannot be written is refused before anything runs
+    planner = task.Planner(_reach(**recording), panda, follow=follow)
     with _progress(as_json) as progress:
         run = task.grasp(planner, bottle, progress("executing under physics"))
         if video:
@@ -113,7 +129,9 @@ def grasp(
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
     else:
         _print(run, video)
-    if not run.ok:
+    written = task.write(run, out, formats) if out else None
+    whole = written is None or print_written(written, run.ok, "not held up", quiet=as_json)
+    if not (run.ok and whole):
         sys.exit(FAILED)
 
 

@@ -14,7 +14,7 @@ import click
 
 from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
-from dmpcpp.cli._choices import engines, exports
+from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
 from dmpcpp.cli._flags import flag
 from dmpcpp.cli._group import FAILED, refuse_file
@@ -28,6 +28,7 @@ from dmpcpp.cli._options import (
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
+from dmpcpp.cli._robot_files import export_option, print_written
 from dmpcpp.cli._tables import arm_line, note_style, print_checks, print_figures, way
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument, MissingDependency
@@ -72,13 +73,7 @@ def _run_options(
                 type=engines("both"),
                 help="Physics engine; both: run and compare the two.",
             ),
-            click.option(
-                "--export",
-                "formats",
-                multiple=True,
-                type=exports(),
-                help="Also write a robot program if verified: joints.yaml, joints_bag, joints.script. Repeatable.",
-            ),
+            export_option,
             accept_option,
             dynamics_option,
             click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
@@ -205,11 +200,10 @@ def _carry_out(
         click.echo(json.dumps(run.summary(), indent=2, allow_nan=False))
     else:
         _print(run, out)
-        if formats:
-            click.echo(f"for the robot: {', '.join(sent)}" if sent else "for the robot: nothing, as it is not verified")
+    whole = print_written(sent, run.ok, "not verified", quiet=as_json)
     if missing:
         click.echo(f"dmpcpp: no report: {missing}", err=True)
-    if not run.ok:
+    if not (run.ok and whole):
         sys.exit(FAILED)
 
 
@@ -277,8 +271,9 @@ def _print(run: Imitation, out: Path) -> None:
     print_checks(console, run.checks)
     assumed, changed = assumptions(run.log.arm), run.changed
     print_verdict(console, run, _how(run), assumed=assumed, changed=changed, advice=_advice(run))
-    caution = "" if run.ok else "; do not run its joints.csv on a robot"
-    console.print(f"written to {out}/{caution}", soft_wrap=True, markup=False)
+    if run.sent.note():
+        console.print(run.sent.note(), style="yellow", soft_wrap=True, markup=False)
+    console.print(f"written to {out}/", soft_wrap=True, markup=False)
 
 
 _ADVICE = {

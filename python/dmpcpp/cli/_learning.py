@@ -33,6 +33,7 @@ from dmpcpp.cli._options import (
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
+from dmpcpp.cli._robot_files import export_option, print_written
 from dmpcpp.cli._tables import arm_line, note_style, print_checks, way
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
@@ -245,6 +246,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     help="Physics engine that checks the path for contacts; none: no contact check.",
 )
 @accept_option
+@export_option
 @click.option(
     "--out",
     default="dmpcpp-plan",
@@ -263,6 +265,7 @@ def plan(
     from_joints: str | None,
     simulator: str,
     accept: tuple[str, ...],
+    formats: tuple[str, ...],
     out: Path,
     as_json: bool,
     **arm: Any,
@@ -274,14 +277,16 @@ def plan(
 
     Example: dmpcpp plan reach/model.json --arm panda --duration 3 --out plan
     """
-    from dmpcpp import load, planning, simulation
+    from dmpcpp import export, load, planning, simulation
 
     refuse_file(out)
     learned, engine, around = load(model), simulation.ENGINES.get(simulator), taken_surroundings(arm)
     end = _goal(goal, learned)
+    chosen = taken_arm(arm)
+    export.chosen(formats, chosen)  # what cannot be written is refused before anything runs
     found = planning.plan(
         planning.Cycles(learned, cycles) if _is_rhythmic(learned) else learned,
-        taken_arm(arm),
+        chosen,
         goal=end,
         duration=duration,
         start=numbers("--from-joints", from_joints) if from_joints else None,
@@ -291,13 +296,14 @@ def plan(
         accept=names(accept),
         via=planning.at_phases(learned, map(_via, via), end) if via else (),
     )
-    planning.write(found, out)
+    sent = planning.write(found, out, formats)
     save_config(out / "config.toml")
     if as_json:
         click.echo(json.dumps(found.summary(), indent=2, allow_nan=False))
     else:
         _print_plan(found, out)
-    if not found.ok:
+    whole = print_written(sent, found.ok, "not feasible", quiet=as_json)
+    if not (found.ok and whole):
         sys.exit(FAILED)
 
 
@@ -315,6 +321,8 @@ def _print_plan(found: JointPlan, out: Path) -> None:
     how = f"{duration}; written to {out}/" + (
         "" if found.ok else ", without joints.csv: do not run this plan on a robot"
     )
+    if found.sent.note():
+        how += f". {found.sent.note()}."
     if found.follow.describe():
         how += f". {found.follow.describe()}."
     print_verdict(console, found, how, assumed=assumptions(found.arm), words=("planned", "not feasible"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -44,11 +45,17 @@ def reason(result: Checked) -> str:
     """Return why a result is not verified; nothing where it is."""
     parts = []
     if result.failed:
-        numbers = ", ".join(f"{c.name} {c.value:.3g} (limit {c.limit:.3g} {c.unit})" for c in result.failed)
+        numbers = ", ".join(map(_failed, result.failed))
         parts.append(f"{len(result.failed)} of {len(result.checks)} checks failed: {numbers}")
     if result.open:
         parts.append(f"not judged: {', '.join(check.name for check in result.open)}")
     return "; ".join(parts) + "." if parts else ""
+
+
+def _failed(check: Check) -> str:
+    if math.isnan(check.value) and check.detail:
+        return f"{check.name} ({check.detail})"
+    return f"{check.name} {check.value:.3g} (limit {check.limit:.3g} {check.unit})"
 
 
 def _not_judged(check: Check, result: Checked) -> str:

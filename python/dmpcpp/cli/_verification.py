@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import sys
+from collections.abc import Callable
 from dataclasses import fields
 from functools import partial
 from pathlib import Path
@@ -30,6 +31,17 @@ if TYPE_CHECKING:
     from dmpcpp.verification import Verification
 
 
+def tolerance_option(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --tolerance."""
+    return click.option(
+        "--tolerance",
+        "stated",
+        multiple=True,
+        metavar="NAME=VALUE",
+        help="Override a tolerance [m, rad, ratios], e.g. position_max=0.005; repeatable.",
+    )(command)
+
+
 @click.command()
 @click.argument("plan", type=click.Path(path_type=Path))
 @click.argument("log", type=click.Path(path_type=Path))
@@ -40,13 +52,7 @@ if TYPE_CHECKING:
 @click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Time unit of a CSV log.")
 @click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Angle unit of a CSV log.")
 @click.option("--low-pass", default=20.0, show_default=True, metavar="HZ", help="Cutoff for velocity and acceleration.")
-@click.option(
-    "--tolerance",
-    "stated",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Override a tolerance [m, rad, ratios], e.g. position_max=0.005; repeatable.",
-)
+@tolerance_option
 @accept_option
 @click.option(
     "--simulator",
@@ -80,7 +86,7 @@ def verify(
     """
     from dmpcpp import export, simulation, verification
 
-    tolerances = _tolerances(stated)
+    tolerances = tolerances_of(stated)
     joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
     as_run = options_of_run(plan if plan.is_dir() else plan.parent, arm, same="arm")
     arm |= as_run
@@ -103,7 +109,7 @@ def verify(
         if as_run:
             typed = flags_of(click.get_current_context().command)
             click.echo(f"as in the run: {', '.join(f'{typed[name]} {_shown(as_run[name])}' for name in as_run)}")
-        _print(result)
+        print_verification(result)
     if not result.ok:
         sys.exit(FAILED)
 
@@ -112,7 +118,7 @@ def _shown(value: Any) -> str:
     return ", ".join(map(str, value)) if isinstance(value, tuple | list) else str(value)
 
 
-def _tolerances(stated: tuple[str, ...]) -> Tolerances:
+def tolerances_of(stated: tuple[str, ...]) -> Tolerances:
     from dmpcpp.simulation import Tolerances
 
     known = {field.name: field for field in fields(Tolerances)}
@@ -130,7 +136,7 @@ def _tolerances(stated: tuple[str, ...]) -> Tolerances:
     return Tolerances(**values)  # type: ignore[arg-type]
 
 
-def _print(result: Verification) -> None:
+def print_verification(result: Verification) -> None:
     from rich.console import Console
 
     from dmpcpp.robot import assumptions

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.sending import JointMotion, phases_of, require
 
 if TYPE_CHECKING:
     from dmpcpp import Arm
@@ -20,39 +21,30 @@ __all__ = ["JointMotion", "JointSamples", "check_limits", "checked", "finite", "
 _ROUNDING = 1e-9  # of a limit; joints may lie on it
 
 
-class JointMotion(Protocol):
-    """What the writers of joints take: a dmpcpp.JointTrajectory, or anything with its fields."""
-
-    @property
-    def time(self) -> Array:
-        """(T,) s."""
-
-    @property
-    def position(self) -> Array:
-        """(T, n) rad or m."""
-
-    @property
-    def velocity(self) -> Array:
-        """(T, n) per s."""
-
-    @property
-    def acceleration(self) -> Array:
-        """(T, n) per s^2."""
-
-    @property
-    def joint_names(self) -> Sequence[str]:
-        """(n,)."""
-
-
 @dataclass(frozen=True, eq=False)
 class JointSamples:
-    """Joints over time, as they are read: time (T,) s; position, velocity, acceleration (T, n) in rad and s."""
+    """Joints over time, as they are read: time (T,) s; position, velocity, acceleration (T, n) in rad and s.
+
+    `motion` are the samples of the motion itself, between a lead-in and a lead-out; None where the file does not say.
+    """
 
     time: Array
     position: Array
     velocity: Array
     acceleration: Array
     joint_names: tuple[str, ...]
+    motion: slice | None = None
+
+    @property
+    def phase(self) -> tuple[str, ...]:
+        """ "lead-in", "motion" or "lead-out" for every sample."""
+        return phases_of(self.motion or slice(0, len(self.time)), len(self.time))
+
+    def of_motion(self) -> JointSamples:
+        """Return the samples of the motion, without lead-in and lead-out."""
+        during = self.motion or slice(0, len(self.time))
+        parts = (self.time, self.position, self.velocity, self.acceleration)
+        return JointSamples(*(part[during] for part in parts), self.joint_names)
 
 
 def checked(trajectory: JointMotion, arm: Arm | None = None) -> JointSamples:
@@ -62,7 +54,7 @@ def checked(trajectory: JointMotion, arm: Arm | None = None) -> JointSamples:
     ----------
     trajectory : JointTrajectory
     arm : Arm, optional
-        Whose limits it must hold, see `check_limits`.
+        Which gets it: it must hold the limits, see `check_limits`, and be what `sending.require` lets a robot have.
     """
     names = tuple(trajectory.joint_names)
     time = strict_times(trajectory.time)
@@ -70,9 +62,10 @@ def checked(trajectory: JointMotion, arm: Arm | None = None) -> JointSamples:
         raise InvalidArgument(f"joint_names: {list(names)}, expected a different name for each joint.")
     shape = (len(time), len(names))
     parts = [finite(what, getattr(trajectory, what), shape, names) for what in ("position", "velocity", "acceleration")]
-    samples = JointSamples(time, *parts, names)
+    samples = JointSamples(time, *parts, names, getattr(trajectory, "motion", None))
     if arm is not None:
         check_limits(samples, arm)
+        require(samples, arm)
     return samples
 
 

@@ -1,8 +1,8 @@
 """Trajectories out, in the files that robot engineers use, and back in; each written whole or not at all.
 
-Joint CSV: `time,<joints>,<joints>_vel,<joints>_acc`; s, rad (m for a sliding joint). Plan: a .npz with
-`time`, `pose`, `twist`, and the names of units and frames. TUM: `t tx ty tz qx qy qz qw`; read it, or a
-plan, with `recordings.load`.
+Joint CSV: `time,<joints>,<joints>_vel,<joints>_acc`, and `phase` where a lead-in and a lead-out are in it; s, rad
+(m for a sliding joint). Plan: a .npz with `time`, `pose`, `twist`, and the names of units and frames. TUM:
+`t tx ty tz qx qy qz qw`; read it, or a plan, with `recordings.load`.
 """
 
 from __future__ import annotations
@@ -23,14 +23,16 @@ from dmpcpp._atomic import replacing, write_text
 from dmpcpp._text import number, read_text
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.export._checks import JointMotion, JointSamples, checked, finite, strict_times
+from dmpcpp.export._checks import JointSamples, checked, finite, strict_times
 from dmpcpp.recordings import read_arrays
+from dmpcpp.sending import PHASES, JointMotion
 
 if TYPE_CHECKING:
     from dmpcpp import Arm
 
-__all__ = ["Plan", "read_joints", "read_plan", "write_joints", "write_plan", "write_tum"]
+__all__ = ["Plan", "read_joints", "read_plan", "write_joint_arrays", "write_joints", "write_plan", "write_tum"]
 
+_PHASE = "phase"
 _UNITS = "time s; pose m; twist m/s and rad/s, in the base frame"
 
 
@@ -71,9 +73,10 @@ def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | 
     ----------
     path : path
     trajectory : JointTrajectory
-        time (T,), position, velocity and acceleration (T, n), joint_names (n).
+        time (T,), position, velocity and acceleration (T, n), joint_names (n); a `sending.RestToRest` brings the
+        column `phase`, which says of each sample whether it is of the lead-in, the motion or the lead-out.
     arm : Arm, optional
-        Whose limits of position and velocity the joints must hold.
+        Which gets the joints: `sending.require` decides whether it may.
 
     Raises
     ------
@@ -86,9 +89,13 @@ def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | 
     samples = checked(trajectory, arm)
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_header(samples.joint_names))
-    rows = np.column_stack([samples.time, samples.position, samples.velocity, samples.acceleration])
-    writer.writerows(rows.tolist())
+    rows = np.column_stack([samples.time, samples.position, samples.velocity, samples.acceleration]).tolist()
+    header = _header(samples.joint_names)
+    if samples.motion is not None:
+        header = [*header, _PHASE]
+        rows = [[*row, phase] for row, phase in zip(rows, samples.phase, strict=True)]
+    writer.writerow(header)
+    writer.writerows(rows)
     write_text(path, text.getvalue())
 
 
@@ -110,11 +117,32 @@ def read_joints(path: str | PathLike[str]) -> JointSamples:
         raise InvalidArgument(f"{path.name}: not a CSV ({error}).") from None
     header = rows[0] if rows else []
     names = tuple(header[1 : 1 + (len(header) - 1) // 3])
-    if not names or header != _header(names):
-        raise InvalidArgument(f"{path.name}: line 1, expected time,<joints>,<joints>_vel,<joints>_acc.")
-    values = _numbers(path, rows[1:], header)
+    if not names or header not in (_header(names), [*_header(names), _PHASE]):
+        raise InvalidArgument(f"{path.name}: line 1, expected time,<joints>,<joints>_vel,<joints>_acc[,phase].")
+    _refuse_lengths(path, rows[1:], header)
+    motion = _motion(path, [row.pop() for row in rows[1:]]) if header[-1] == _PHASE else None
+    values = _numbers(rows[1:], header)
     position, velocity, acceleration = np.split(values[:, 1:], 3, axis=1)
-    return JointSamples(strict_times(values[:, 0]), position, velocity, acceleration, names)
+    return JointSamples(strict_times(values[:, 0]), position, velocity, acceleration, names, motion)
+
+
+def write_joint_arrays(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | None = None) -> None:
+    """Write joints as .npz: `time`, `position`, `velocity`, `acceleration`, `joint_names`, `phase` and `units`.
+
+    Parameters and errors are those of `write_joints`.
+    """
+    samples = checked(trajectory, arm)
+    with replacing(path) as beside, beside.open("wb") as file:
+        np.savez(
+            file,
+            time=samples.time,
+            position=samples.position,
+            velocity=samples.velocity,
+            acceleration=samples.acceleration,
+            joint_names=np.array(samples.joint_names),
+            phase=np.array(samples.phase),
+            units="time s; position rad (m of a sliding joint), and their derivatives",
+        )
 
 
 def write_plan(
@@ -207,10 +235,27 @@ def _header(names: Sequence[str]) -> list[str]:
     return ["time", *names, *(f"{name}_vel" for name in names), *(f"{name}_acc" for name in names)]
 
 
-def _numbers(path: Path, rows: list[list[str]], header: list[str]) -> Array:
-    values = []
+def _refuse_lengths(path: Path, rows: list[list[str]], header: list[str]) -> None:
     for line, row in enumerate(rows, start=2):
         if len(row) != len(header):
             raise InvalidArgument(f"{path.name}: line {line}, {len(row)} cells, expected {len(header)}.")
-        values.append([number(cell, line, column) for cell, column in zip(row, header, strict=True)])
-    return np.array(values).reshape(len(values), len(header))
+
+
+def _numbers(rows: list[list[str]], header: list[str]) -> Array:
+    columns = [name for name in header if name != _PHASE]
+    values = [
+        [number(cell, line, column) for cell, column in zip(row, columns, strict=True)]
+        for line, row in enumerate(rows, start=2)
+    ]
+    return np.array(values).reshape(len(values), len(columns))
+
+
+def _motion(path: Path, phases: list[str]) -> slice:
+    """The samples between lead-in and lead-out."""
+    order = [PHASES.index(phase) if phase in PHASES else -1 for phase in phases]
+    for line, (before, phase) in enumerate(zip([0, *order], order, strict=False), start=2):
+        if phase < before:
+            raise InvalidArgument(
+                f"{path.name}: line {line}, phase '{phases[line - 2]}', expected {', '.join(PHASES)} in this order."
+            )
+    return slice(order.count(0), order.count(0) + order.count(1))

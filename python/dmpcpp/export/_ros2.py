@@ -2,7 +2,7 @@
 
 Points carry positions, velocities and accelerations: of positions alone a joint_trajectory_controller makes straight
 lines. `time_from_start` counts from the moment the controller takes the message over and must be above 0, so all
-times are moved by `lead`.
+times are moved by `lead`: in that time the controller brings the robot to the first point from wherever it stands.
 """
 
 from __future__ import annotations
@@ -19,16 +19,19 @@ import numpy as np
 from dmpcpp._atomic import write_text
 from dmpcpp._text import read_text
 from dmpcpp.errors import FileError, InvalidArgument, MissingDependency
-from dmpcpp.export._checks import JointMotion, JointSamples, checked, finite, strict_times
+from dmpcpp.export._checks import JointSamples, checked, finite, strict_times
+from dmpcpp.sending import JointMotion, farthest
 
 if TYPE_CHECKING:
     from dmpcpp import Arm
 
-__all__ = ["read_ros2_bag", "read_ros2_yaml", "write_ros2_bag", "write_ros2_yaml"]
+__all__ = ["read_ros2_bag", "read_ros2_yaml", "write_ros2_bag", "write_ros2_goal", "write_ros2_yaml"]
 
 _TYPE = "trajectory_msgs/msg/JointTrajectory"
 _FIELDS = ("positions", "velocities", "accelerations")
-_STILL = 1e-3  # rad/s; a controller refuses a trajectory that ends at speed
+_CONTROLLER = "/joint_trajectory_controller"
+_PATH_TOLERANCE, _GOAL_TOLERANCE = 0.1, 0.01  # rad (m), of an action's goal
+_GOAL_TIME = 1  # s
 
 
 def write_ros2_yaml(
@@ -41,7 +44,7 @@ def write_ros2_yaml(
     ----------
     path : path
     trajectory : JointTrajectory
-        At rest at its end (to 1e-3 rad/s). Numbers read back exactly, times to a nanosecond.
+        Exactly at rest at its end. Numbers read back exactly, times to a nanosecond.
     arm : Arm, optional
         Whose limits it must hold.
     lead : float
@@ -55,6 +58,44 @@ def write_ros2_yaml(
         The file cannot be written; an older one is untouched.
     """
     samples = _at_rest(checked(trajectory, arm))
+    send = f"ros2 topic pub --once {_CONTROLLER}/joint_trajectory {_TYPE}"
+    write_text(path, "\n".join([*_first_lines(path, samples, arm, lead, send), *_lines(samples, lead)]) + "\n")
+
+
+def write_ros2_goal(
+    path: str | PathLike[str], trajectory: JointMotion, arm: Arm | None = None, *, lead: float = 0.1
+) -> None:
+    """Write the goal of the action control_msgs/action/FollowJointTrajectory as YAML, with tolerances.
+
+    On the way every joint may be 0.1 rad (m) off, at the end 0.01 within 1 s; the controller ends it otherwise.
+    Parameters, limits and errors are those of `write_ros2_yaml`.
+    """
+    samples = _at_rest(checked(trajectory, arm))
+    send = f"ros2 action send_goal {_CONTROLLER}/follow_joint_trajectory control_msgs/action/FollowJointTrajectory"
+    lines = [*_first_lines(path, samples, arm, lead, send), "trajectory:"]
+    lines += [f"  {line}" for line in _lines(samples, lead)]
+    for name, tolerance in (("path_tolerance", _PATH_TOLERANCE), ("goal_tolerance", _GOAL_TOLERANCE)):
+        lines.append(f"{name}:")
+        lines += [
+            f"- {{name: {_quoted(joint)}, position: {tolerance}, velocity: 0.0, acceleration: 0.0}}"
+            for joint in samples.joint_names
+        ]
+    write_text(path, "\n".join([*lines, f"goal_time_tolerance: {{sec: {_GOAL_TIME}, nanosec: 0}}"]) + "\n")
+
+
+def _first_lines(
+    path: str | PathLike[str], samples: JointSamples, arm: Arm | None, lead: float, send: str
+) -> list[str]:
+    """Comments: where the robot has to stand, and the command that sends the file."""
+    place = ", ".join(f"{q:.4f}" for q in samples.position[0])
+    far = "" if arm is None else f" The robot must stand within {farthest(arm, lead):.2g} rad of it."
+    return [
+        f"# The first point, [{place}] rad, is reached {lead:g} s after the controller gets this.{far}",
+        f'# {send} "$(cat {Path(path).name})"',
+    ]
+
+
+def _lines(samples: JointSamples, lead: float) -> list[str]:
     lines = ["header:", "  stamp: {sec: 0, nanosec: 0}", "  frame_id: ''", "joint_names:"]
     lines += [f"- {_quoted(name)}" for name in samples.joint_names]
     lines.append("points:")
@@ -65,7 +106,7 @@ def write_ros2_yaml(
             for name, row in zip(_FIELDS, rows, strict=True)
         ]
         lines.append(f"  time_from_start: {{sec: {nanoseconds // 10**9}, nanosec: {nanoseconds % 10**9}}}")
-    write_text(path, "\n".join(lines) + "\n")
+    return lines
 
 
 def read_ros2_yaml(path: str | PathLike[str]) -> JointSamples:
@@ -169,7 +210,7 @@ def _rosbags() -> tuple[Any, Any]:
 
 def _at_rest(samples: JointSamples) -> JointSamples:
     speed = np.abs(samples.velocity[-1])
-    if speed.max() > _STILL:
+    if speed.any():  # ros2_controllers refuse 1e-6 rad/s
         j = int(np.argmax(speed))
         raise InvalidArgument(
             f"velocity[{len(samples.time) - 1}, {j}]: {samples.velocity[-1, j]:.4g} rad/s of joint "
@@ -258,5 +299,5 @@ def _take(text: str, names: list[str], rows: dict[str, list[list[float]]], nanos
     elif stamp := _STAMP.fullmatch(text):
         nanoseconds.append(int(stamp["sec"]) * 10**9 + int(stamp["nanosec"]))
     else:
-        return text in _FRAME
+        return text in _FRAME or text.startswith("#")
     return True

@@ -15,13 +15,15 @@ from dmpcpp._atomic import write_text
 from dmpcpp._text import read_text
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.export._checks import JointMotion, checked, finite
+from dmpcpp.export._checks import checked, finite
+from dmpcpp.sending import APPROACH_SHARE, JointMotion
 
 if TYPE_CHECKING:
     from dmpcpp import Arm
 
 __all__ = ["read_urscript", "write_urscript"]
 
+_SPEED = 0.3  # rad/s, of the way to the first joints at most
 _JOINTS = 6  # of every arm that understands it
 
 
@@ -78,7 +80,8 @@ def write_urscript(
     duration = samples.time[-1] - samples.time[0]
     at = samples.time[0] + np.minimum(np.arange(int(np.ceil(duration / period - 1e-9)) + 1) * period, duration)
     joints = CubicHermiteSpline(samples.time, samples.position, samples.velocity)(at)
-    write_text(path, _script(joints, period, lookahead, gain, name))
+    speed = _SPEED if arm is None else min(_SPEED, APPROACH_SHARE * float(np.min(arm.velocity_limit)))
+    write_text(path, _script(joints, period, lookahead, gain, name, speed))
 
 
 def understands_urscript(arm: Arm) -> None:
@@ -114,11 +117,12 @@ def _six(joint_names: Sequence[str]) -> None:
         raise InvalidArgument(f"joint_names: {len(joint_names)} joints, expected 6 for URScript.")
 
 
-def _script(joints: Array, period: float, lookahead: float, gain: float, name: str) -> str:
+def _script(joints: Array, period: float, lookahead: float, gain: float, name: str, speed: float) -> str:
     lines = [
-        f"# joints in rad, one command each {period:g} s",
+        f"# First the robot goes straight in joint space, at {speed:.3g} rad/s, from where it stands to the first",
+        f"# joints: keep that way free. Joints in rad, one command each {period:g} s.",
         f"def {name}():",
-        f"  movej({_list(joints[0])}, 0.5, 0.3)",
+        f"  movej({_list(joints[0])}, 0.5, {speed:.3g})",
     ]
     tail = f"0, 0, {period!r}, {lookahead!r}, {gain!r}"
     lines += [f"  servoj({_list(row)}, {tail})" for row in joints]

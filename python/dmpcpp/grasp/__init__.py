@@ -9,7 +9,7 @@ The reach is learned once as a `PoseDmp`; for every bottle its goal is moved to 
 where the hand goes on straight along its own axis. Nothing but friction holds the bottle.
 """
 
-from dmpcpp.grasp._attempt import CAVEAT, Grasp, grasp
+from dmpcpp.grasp._attempt import CAVEAT, Grasp, grasp, write
 from dmpcpp.grasp._execution import GraspLog, carry_out
 from dmpcpp.grasp._film import film
 from dmpcpp.grasp._film import refuse_format as refuse_format
@@ -35,4 +35,5 @@ __all__ = [
     "judge",
     "longest_reach",
     "random_bottle",
+    "write",
 ]

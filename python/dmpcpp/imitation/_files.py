@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from dmpcpp import export, metrics, motion, simulation
+from dmpcpp import export, metrics, motion
 from dmpcpp._atomic import replacing, write_text
 from dmpcpp._core import save
 from dmpcpp._typing import Array
@@ -18,25 +18,21 @@ from dmpcpp.show.report import RunRecord, drawn, write_record
 if TYPE_CHECKING:
     from dmpcpp.imitation._flow import Imitation
 
-__all__ = ["SENT_RATE", "write"]
-
-SENT_RATE = 125.0
-"""Hz, of the joints that robots are sent: one sample a servoj command; a ROS 2 controller fills in by quintics."""
+__all__ = ["write"]
 
 
-def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = ()) -> tuple[str, ...]:
-    """Write model.json, plan.npz, joints.csv, execution.npz, picture.png and summary.json, each
-    whole or not at all.
+def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = ()) -> export.Written:
+    """Write model.json, plan.npz, execution.npz, picture.png and summary.json, each whole or not at all, and what
+    robots are sent: joints.csv and more by the names in `export.FORMATS`.
 
-    The summary comes last: a folder that has one has all, and `report.write` makes its report. What robots are sent,
-    by the names in `export.FORMATS`, is
-    written of a verified run, from rest to rest as it was simulated and within the arm's limits; what an
-    earlier run left of it is removed.
+    The summary comes last: a folder that has one has all, and `report.write` makes its report. Files for robots are
+    written of a verified run, from rest to rest as it was simulated; what an earlier run left of them is removed. One
+    that a robot must not get costs itself only.
 
     Returns
     -------
-    tuple of str
-        The names of the files for robots; none of a run that is not verified.
+    export.Written
+        The names of the files for robots, none of a run that is not verified, and why one was refused.
 
     Raises
     ------
@@ -51,29 +47,16 @@ def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = 
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "summary.json").unlink(missing_ok=True)
-    for format_ in export.FORMATS.values():
-        format_.remove(folder)
+    export.remove_robot_files(folder)
     arm = run.log.arm
     save(run.model, folder / "model.json")
     export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip, follow=str(run.log.follow))
-    export.write_joints(folder / "joints.csv", run.joints)
     curves = _curves(run)
     write_record(folder / "execution.npz", _record(run, curves))
     _picture(run, curves, folder / "picture.png")
-    sent = chosen if run.ok else ()
-    for format_ in sent:
-        format_.write(folder / format_.file, _as_sent(run), arm)
+    sent = export.write_robot_files(folder, run.sent, arm, chosen) if run.ok else export.Written()
     write_text(folder / "summary.json", json.dumps(run.summary(), indent=2, allow_nan=False) + "\n")
-    return tuple(format_.file for format_ in sent)
-
-
-def _as_sent(run: Imitation) -> export.JointSamples:
-    """Return the joints as the simulated arm followed them: run up from rest, and stopped at the end."""
-    arm = run.log.arm
-    sent = simulation.from_rest_to_rest(arm, run.joints, SENT_RATE)
-    return export.JointSamples(
-        sent.time - sent.time[0], sent.position, sent.velocity, sent.acceleration, tuple(arm.joint_names)
-    )
+    return sent
 
 
 def _curves(run: Imitation) -> tuple[plot.ErrorCurve, ...]:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from dmpcpp import metrics, motion, simulation
+from dmpcpp import metrics, motion, sending, simulation
 from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._engines import default_engine
 from dmpcpp.checks import Check, Checked, accepted_names
@@ -34,6 +34,7 @@ from dmpcpp.robot import (
     require_holdable,
     without_dynamics,
 )
+from dmpcpp.sending import RestToRest
 from dmpcpp.simulation import ExecutionLog, Mode
 
 __all__ = ["STAGES", "Imitation", "PlacementPolicy", "Progress", "clear_of_itself", "imitate"]
@@ -66,6 +67,8 @@ class Imitation(Checked):
     plan : PoseTrajectory
         The model's rollout, slowed down.
     joints : JointTrajectory
+    sent : RestToRest
+        The joints with a lead-in and a lead-out: what was executed, and what a robot may get.
     log : ExecutionLog
     stages : dict of str to StageErrors
         "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
@@ -86,6 +89,7 @@ class Imitation(Checked):
     slowdown: float
     plan: PoseTrajectory
     joints: JointTrajectory
+    sent: RestToRest
     log: ExecutionLog
     stages: dict[str, StageErrors]
     checks: tuple[Check, ...]
@@ -128,6 +132,7 @@ class Imitation(Checked):
             "derivatives": self.model.options.derivatives.name,
             "duration": self.plan.time[-1],
             "slowdown": self.slowdown,
+            "leads": self.sent.to_dict(),
             "simulator": self.log.simulator,
             "second_simulator": self.second_log.simulator if self.second_log else None,
             "mode": self.log.mode,
@@ -242,9 +247,10 @@ def imitate(
     )
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
     require_holdable(arm, joints.position)
+    sent = sending.from_rest_to_rest(arm, joints, clear.keeps_clear)
     tell("execute", 0.0)
-    path_checks = simulation.path_checks(arm, joints, simulator=engines[0])
-    logs = _execute(arm, joints, engines, followed, mode, lambda done: tell("execute", done))
+    path_checks = simulation.path_checks(arm, sent, simulator=engines[0])
+    logs = _execute(arm, sent, engines, followed, mode, lambda done: tell("execute", done))
     log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
         "demonstration_to_dmp": reproduction(model, demonstration),
@@ -252,13 +258,13 @@ def imitate(
         "ik_to_executed": log.errors,
     }
     reproduced = lesson.checks if lesson else reproduction_checks(model, found)
-    checks = (*reproduced, *path_checks, *log.verdict.checks)
+    checks = (*reproduced, *path_checks, sending.ready(sending.check(sent, arm)), *log.verdict.checks)
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
     if dynamics == "none":
         checks = tuple(_by_kinematics(checks))
     return Imitation(
-        placed, placement, model, slowdown, plan, joints, log, stages, checks, found, second, accepted, looked_at
+        placed, placement, model, slowdown, plan, joints, sent, log, stages, checks, found, second, accepted, looked_at
     )
 
 
@@ -281,7 +287,7 @@ def _engines(simulator: str, around: Surroundings) -> tuple[Engine, ...]:
 
 def _execute(
     arm: Arm,
-    joints: JointTrajectory,
+    joints: RestToRest,
     engines: tuple[Engine, ...],
     follow: Follow,
     mode: Mode,

@@ -12,9 +12,10 @@ import numpy as np
 
 from dmpcpp import simulation
 from dmpcpp._core import Arm, JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot import FLOOR, ContactRules, links_of, random_postures
-from dmpcpp.simulation import Simulator
+from dmpcpp.simulation import Nearest, Simulator
 
 __all__ = ["ClearOfItself", "LookedAt", "clear_of_itself", "require_free_postures"]
 
@@ -47,13 +48,20 @@ class ClearOfItself:
     def __call__(self, joints: JointTrajectory) -> bool:
         """Whether these keep clear."""
         self.tested += 1
-        world = self._open()
-        near = simulation.nearest_along(world, joints.position, self._links, simulation.CLEAR, tight=self._tight)
-        close = [one for one in near.values() if one.margin < 0.0]
+        close = self._close(joints.position)
         if close:
             nearest = min(close, key=lambda one: one.margin).clearance
             self.refused[nearest.link, nearest.other] += 1
         return not close
+
+    def keeps_clear(self, position: Array) -> bool:
+        """Whether a lead (T, n) keeps clear; not one of the paths that are searched."""
+        return not self._close(position)
+
+    def _close(self, position: Array) -> list[Nearest]:
+        world = self._open()
+        near = simulation.nearest_along(world, position, self._links, simulation.CLEAR, tight=self._tight)
+        return [one for one in near.values() if one.margin < 0.0]
 
     def _open(self) -> Simulator:
         """Load the arm at the first path; a search tries hundreds. It is freed with this test."""

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dmpcpp import export
+from dmpcpp import export, sending
 from dmpcpp._atomic import write_text
 from dmpcpp._core import Arm, JointTrajectory, Motion, PoseDmp, PoseTrajectory, Via
 from dmpcpp._typing import Array
@@ -38,6 +38,7 @@ from dmpcpp.robot import (
     require_within_reach,
     tool_speed_check,
 )
+from dmpcpp.sending import RestToRest
 from dmpcpp.simulation import Simulator, Tolerances, inverse_kinematics_checks, path_checks
 
 __all__ = ["JointPlan", "at_phases", "plan", "write"]
@@ -64,11 +65,14 @@ class JointPlan(Checked):
         The part of each pose that the arm follows.
     via : tuple of Via
         Poses that the motion passes.
+    sent : RestToRest
+        The joints with a lead-in and a lead-out: what a robot may get.
     """
 
     arm: Arm
     motion: PoseTrajectory
     joints: JointTrajectory
+    sent: RestToRest
     slowdown: float
     checks: tuple[Check, ...]
     accepted: tuple[str, ...] = ()
@@ -86,6 +90,7 @@ class JointPlan(Checked):
             "follow": str(self.follow),
             "duration": float(self.joints.time[-1]),
             "slowdown": self.slowdown,
+            "leads": self.sent.to_dict(),
             "contacts": self.contacts.to_dict() if self.contacts else None,
             "samples": len(self.joints.time),
             "goal": self.motion.pose[-1].tolist(),
@@ -175,16 +180,19 @@ def plan(
     )
     joints = solution.joints
     require_holdable(arm, joints.position)
+    sent = sending.from_rest_to_rest(arm, joints, clear.keeps_clear if clear else None)
     use = LimitUse.of(arm, joints.time, joints.position, joints.velocity, joints.acceleration)
     checks = (
         *inverse_kinematics_checks(joints, Tolerances(), followed),
         *use.checks(),
         *dimension_checks(arm),
         *_stated(arm, joints),
+        sending.ready(sending.check(sent, arm)),
     )
     if simulator is not None:
-        checks = (*checks, *path_checks(arm, joints, simulator=simulator))
-    return JointPlan(arm, solution.motion, joints, solution.slowdown, checks, accepted, looked_at, followed, tuple(via))
+        checks = (*checks, *path_checks(arm, sent, simulator=simulator))
+    plain = (checks, accepted, looked_at, followed, tuple(via))
+    return JointPlan(arm, solution.motion, joints, sent, solution.slowdown, *plain)
 
 
 def at_phases(model: PoseDmp, points: Iterable[tuple[float, ArrayLike]], goal: ArrayLike | None = None) -> list[Via]:
@@ -225,24 +233,35 @@ def _stand(start: ArrayLike | None, arm: Arm) -> Array | None:
     return joints
 
 
-def write(found: JointPlan, folder: str | PathLike[str]) -> None:
-    """Write plan.npz, joints.csv and summary.json, each whole or not at all; the summary comes last.
+def write(found: JointPlan, folder: str | PathLike[str], formats: Iterable[str] = ()) -> export.Written:
+    """Write plan.npz, summary.json and the files for robots, each whole or not at all; the summary comes last.
 
-    joints.csv is what a robot may be sent, so it is written of a plan that is ok; of any other, one that an
-    earlier plan left is removed.
+    Joints.csv, and more by the names in `export.FORMATS`, are what a robot may be sent, from rest to rest: they are
+    written of a plan that is ok; what an earlier plan left of them is removed. One that a robot must not get costs
+    itself only.
+
+    Returns
+    -------
+    export.Written
+        The names of the files for robots, and why one was refused.
 
     Raises
     ------
+    InvalidArgument
+        An unknown format, or one that this arm does not take.
+    MissingDependency
+        What a format needs is not installed.
     FileError
         The folder or a file cannot be written.
     """
+    chosen = export.chosen(formats, found.arm)
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    for stale in ("summary.json", "joints.csv"):
-        (folder / stale).unlink(missing_ok=True)
+    (folder / "summary.json").unlink(missing_ok=True)
+    export.remove_robot_files(folder)
     export.write_plan(
         folder / "plan.npz", found.motion, base=found.arm.base, tip=found.arm.tip, follow=str(found.follow)
     )
-    if found.ok:
-        export.write_joints(folder / "joints.csv", found.joints)
+    sent = export.write_robot_files(folder, found.sent, found.arm, chosen) if found.ok else export.Written()
     write_text(folder / "summary.json", json.dumps(found.summary(), indent=2, allow_nan=False) + "\n")
+    return sent

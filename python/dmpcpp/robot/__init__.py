@@ -14,6 +14,7 @@ from dmpcpp.robot._inertia import InertiaRepair, is_physical, moment_change, nea
 from dmpcpp.robot._levers import Levers
 from dmpcpp.robot._limit_sources import assumptions, limits_summary
 from dmpcpp.robot._limit_use import LimitUse, judged_by_limits
+from dmpcpp.robot._makers import MAKERS as MAKERS
 from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._payload import payload_of, with_description, with_payload
 from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why

@@ -11,6 +11,7 @@ import numpy as np
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.robot import POSE, Disturbance, Follow
+from dmpcpp.sending import RestToRest
 from dmpcpp.simulation._control import MODES, ComputedTorque, Controller, Gains, Mode, Servo
 from dmpcpp.simulation._control_loop import ControlLoop, Progress, Recorder, Sensors, by_motors, by_torque
 from dmpcpp.simulation._default import default_simulator
@@ -22,7 +23,7 @@ from dmpcpp.simulation._simulator import Simulator
 
 def execute(
     arm: Arm,
-    joints: JointTrajectory,
+    joints: JointTrajectory | RestToRest,
     *,
     rate: float = 1000.0,
     mode: Mode = "computed_torque",
@@ -43,8 +44,9 @@ def execute(
     Parameters
     ----------
     arm : Arm
-    joints : JointTrajectory
-        (T, n), T >= 2, in the order of ``arm.joint_names``.
+    joints : JointTrajectory or RestToRest
+        (T, n), T >= 2, in the order of ``arm.joint_names``; with its leads as they are to be carried out, or without:
+        then they are found.
     rate : float
         Control and physics steps a second [Hz], 10 to 1e5.
     mode : {"computed_torque", "position", "position_velocity", "velocity"}
@@ -110,7 +112,7 @@ def execute(
 
 
 def _log(
-    joints: JointTrajectory,
+    joints: JointTrajectory | RestToRest,
     mode: str,
     plant: Simulator,
     reference: Reference,
@@ -122,7 +124,7 @@ def _log(
     done = slice(recorder.done)
     return ExecutionLog(
         arm=plant.arm,
-        joints=joints,
+        joints=joints.joints if isinstance(joints, RestToRest) else joints,
         simulator=plant.name,
         mode=mode,
         rate=1.0 / plant.time_step,
@@ -164,7 +166,13 @@ def _plant_and_model(
 
 
 def _refuse(
-    arm: Arm, joints: JointTrajectory, rate: float, mode: str, interpolation: str, gains: Gains, settle: float
+    arm: Arm,
+    joints: JointTrajectory | RestToRest,
+    rate: float,
+    mode: str,
+    interpolation: str,
+    gains: Gains,
+    settle: float,
 ) -> None:
     """Turn down what cannot be carried out, before anything is loaded."""
     for name, choice, known in (("mode", mode, MODES), ("interpolation", interpolation, INTERPOLATIONS)):
@@ -184,7 +192,7 @@ def _refuse(
         )
 
 
-def _refuse_joints(arm: Arm, joints: JointTrajectory) -> None:
+def _refuse_joints(arm: Arm, joints: JointTrajectory | RestToRest) -> None:
     if list(joints.joint_names) != list(arm.joint_names):
         raise InvalidArgument(
             f"joints.joint_names: {list(joints.joint_names)}, expected {list(arm.joint_names)}. "

@@ -15,7 +15,7 @@ from dmpcpp.simulation._verdict import Verdict, judge
 
 _KNOWS_ALL = "the controller knows the simulated masses exactly; model errors, delay and friction are not in it"
 _RECORDED = (
-    "recorded on a real arm: where the tool was is the forward kinematics of the measured joints; the arm's "
+    "recorded by the robot: where the tool was is the forward kinematics of the measured joints; the arm's "
     "calibration, its flexing and contacts are not in the log"
 )
 _MOTORS = "the engine's motors are constraints solved inside the step; only kinematics and the torque cap are tested"

@@ -11,6 +11,7 @@ from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check
 from dmpcpp.robot import links_of
+from dmpcpp.sending import RestToRest
 from dmpcpp.simulation._default import default_simulator
 from dmpcpp.simulation._path_clearance import nearest_along
 from dmpcpp.simulation._simulator import Clearance, Contact, Simulator, kind_of
@@ -41,7 +42,7 @@ def contacts_along(
 
 def path_checks(
     arm: Arm,
-    joints: JointTrajectory,
+    joints: JointTrajectory | RestToRest,
     tolerances: PathTolerances | None = None,
     *,
     poses: int = 100,
@@ -52,7 +53,8 @@ def path_checks(
     Parameters
     ----------
     arm : Arm
-    joints : JointTrajectory
+    joints : JointTrajectory or RestToRest
+        With leads these are looked at, too.
     tolerances : PathTolerances, optional
         By default nothing may overlap.
     poses : int
@@ -82,11 +84,14 @@ def path_checks(
     return tuple(checks)
 
 
-def _check(kind: str, what: str, near: list[tuple[float, Clearance]], joints: JointTrajectory, limit: float) -> Check:
+def _check(
+    kind: str, what: str, near: list[tuple[float, Clearance]], joints: JointTrajectory | RestToRest, limit: float
+) -> Check:
     name = f"path_{kind}_clearance"
     if not near:
         return Check(name, True, _FAR, limit, "m", None, f"nowhere near {what}")
     k, closest = min(near, key=lambda pair: pair[1].distance)
-    time = float(np.interp(k, np.arange(len(joints.time)), joints.time) - joints.time[0])
+    origin = joints.origin if isinstance(joints, RestToRest) else joints.time[0]
+    time = float(np.interp(k, np.arange(len(joints.time)), joints.time) - origin)
     detail = f"{closest.link} and {closest.other}"
     return Check(name, closest.distance >= limit, closest.distance, limit, "m", time, detail)

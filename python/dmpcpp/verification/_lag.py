@@ -8,7 +8,7 @@ from scipy.optimize import minimize_scalar
 
 from dmpcpp._core import JointTrajectory
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.simulation import states_at
+from dmpcpp.sending import states_at
 from dmpcpp.verification._joint_log import JointLog
 
 _GRID = 400  # times of the plan that are compared

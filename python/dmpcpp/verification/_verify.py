@@ -18,7 +18,8 @@ from dmpcpp.comparison import MotionComparison, compare_motions
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.export import JointSamples
 from dmpcpp.robot import POSE, Follow, assumptions, limits_summary, unjudged
-from dmpcpp.simulation import ExecutionLog, Simulator, Tolerances, judge, path_checks, states_at
+from dmpcpp.sending import states_at
+from dmpcpp.simulation import ExecutionLog, Simulator, Tolerances, judge, path_checks
 from dmpcpp.verification._joint_log import JointLog
 from dmpcpp.verification._lag import estimate_lag
 
@@ -112,7 +113,8 @@ def verify(
     ----------
     arm : Arm
     joints : JointTrajectory or JointSamples
-        The plan.
+        The plan. Where lead-in and lead-out are in it (``JointSamples.motion``), tracking is judged over the motion and
+        limits over all.
     log : JointLog
         Of any joints, the arm's among them.
     tolerances : Tolerances, optional
@@ -137,7 +139,7 @@ def verify(
     accepted = accepted_names(accept)
     of_arm = log.of(arm.joint_names)
     _refuse_another_unit(arm, of_arm)
-    lag = estimate_lag(joints, of_arm)
+    lag = estimate_lag(joints, of_arm) + _begin(joints)
     run = replace(_on_the_plans_clock(arm, joints, of_arm, lag, cutoff), follow=follow)
     during = run.motion
     checks = (*_log_checks(joints, of_arm, lag), *_checks(run, tolerances, of_arm.torque is not None))
@@ -155,6 +157,18 @@ def verify(
         notes=of_arm.notes if of_arm.torque is not None else (*of_arm.notes, _NO_TORQUE),
         accepted=accepted,
     )
+
+
+def _begin(joints: JointTrajectory | JointSamples) -> float:
+    """How long after the first sample the motion begins [s]: behind its lead-in, if there is one."""
+    motion = getattr(joints, "motion", None)
+    return float(joints.time[motion.start] - joints.time[0]) if motion else 0.0
+
+
+def _duration(joints: JointTrajectory | JointSamples) -> float:
+    """Of the motion, without lead-in and lead-out [s]."""
+    time = joints.time[getattr(joints, "motion", None) or slice(None)]
+    return float(time[-1] - time[0])
 
 
 def _margin(arm: Arm, kind: str, values: Array, limit: Array) -> float | None:
@@ -184,12 +198,12 @@ def _on_the_plans_clock(
     arm: Arm, joints: JointTrajectory | JointSamples, log: JointLog, lag: float, cutoff: float
 ) -> ExecutionLog:
     time, step = _even_times(joints, log, lag)
-    inside = np.flatnonzero((time >= -1e-9) & (time <= joints.time[-1] - joints.time[0] + 1e-9))
+    inside = np.flatnonzero((time >= -1e-9) & (time <= _duration(joints) + 1e-9))
     spline = CubicSpline(log.time, log.position)
     at = np.clip(time + lag, log.time[0], log.time[-1])
     velocity = spline(at, 1) if log.velocity is None else CubicSpline(log.time, log.velocity)(at)
     torque = np.full_like(velocity, np.nan) if log.torque is None else CubicSpline(log.time, log.torque)(at)
-    desired_position, desired_velocity, _ = states_at(joints, time)
+    desired_position, desired_velocity, _ = states_at(joints, time + _begin(joints))
     position = spline(at)
     return ExecutionLog(
         arm=arm,
@@ -215,7 +229,7 @@ def _on_the_plans_clock(
 
 def _even_times(joints: JointTrajectory | JointSamples, log: JointLog, lag: float) -> tuple[Array, float]:
     """Times on the plan's clock from a sample of the log on, in steps of the median during the motion [s]."""
-    duration = float(joints.time[-1] - joints.time[0])
+    duration = _duration(joints)
     clock = log.time - lag
     during = clock[(clock >= -1e-9) & (clock <= duration + 1e-9)]
     if len(during) < _SAMPLES:
@@ -224,7 +238,9 @@ def _even_times(joints: JointTrajectory | JointSamples, log: JointLog, lag: floa
             f"{_SAMPLES}; they are {np.median(np.diff(log.time)):.3g} s apart. Is its time in another unit (time_unit)?"
         )
     step = float(np.median(np.diff(during)))
-    around = clock[(clock >= -_AROUND) & (clock <= duration + _AROUND)]
+    before = _begin(joints)
+    after = float(joints.time[-1] - joints.time[0]) - duration - before
+    around = clock[(clock >= -before - _AROUND) & (clock <= duration + after + _AROUND)]
     return around[0] + step * np.arange(1 + int((around[-1] - around[0]) / step + 1e-6)), step
 
 
@@ -237,7 +253,7 @@ def _low_passed(values: Array, rate: float, cutoff: float) -> Array:
 
 def _log_checks(joints: JointTrajectory | JointSamples, log: JointLog, lag: float) -> tuple[Check, Check]:
     """Whether the log holds the motion, and whole."""
-    begin, end = lag, lag + float(joints.time[-1] - joints.time[0])
+    begin, end = lag, lag + _duration(joints)
     covered = max(0.0, min(end, float(log.time[-1])) - max(begin, float(log.time[0]))) / (end - begin)
     concerned = (log.time[:-1] < end) & (log.time[1:] > begin)  # a silence before or after the motion hides nothing
     gaps = np.where(concerned, np.diff(log.time), 0.0)
