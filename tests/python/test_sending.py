@@ -65,6 +65,16 @@ def test_what_is_sent_goes_from_rest_to_rest_and_no_limit_is_exceeded(arm, seed,
     assert sending.ready(sending.check(sampled, arm)).ok
 
 
+def test_an_end_that_lies_on_the_grid_up_to_rounding_is_exactly_at_rest(arm):
+    joints = swinging(arm, 3)
+    whole = sending.from_rest_to_rest(arm, joints)
+    for steps in range(50, 400):
+        sent = whole.at_rate(steps / (whole.time[-1] - whole.time[0]))
+        assert len(sent.time) == steps + 1
+        assert not sent.velocity[[0, -1]].any() and not sent.acceleration[[0, -1]].any()
+        np.testing.assert_array_equal(sent.position[-1], whole.position[-1])
+
+
 def test_the_motion_keeps_its_times_and_joints_bit_for_bit(arm):
     joints = swinging(arm, 3)
     sent = sending.from_rest_to_rest(arm, joints)

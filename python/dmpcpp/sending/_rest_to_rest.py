@@ -91,8 +91,8 @@ class RestToRest:
         steps = np.arange(1 + int(np.ceil((end - begin) * rate - 1e-6)))
         at = begin + steps / rate
         states = list(interpolated(self, np.minimum(at, end)))
-        states[1][at >= end], states[2][at >= end] = 0.0, 0.0  # also where the last step lies behind the end
-        states[0][at >= end] = self.position[-1]
+        over = at >= end - 1e-6 / rate  # the last step lies behind the end, or on it up to rounding
+        states[0][over], states[1][over], states[2][over] = self.position[-1], 0.0, 0.0
         first, last = self.time[self.motion][[0, -1]]
         inside = np.searchsorted(at, (first - 1e-9, last + 1e-9))
         return RestToRest(at, *states, self.joint_names, slice(*map(int, inside)), self.joints, self.slowed, self.fits)
