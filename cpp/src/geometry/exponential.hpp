@@ -15,7 +15,8 @@ namespace dmp::detail {
 /// exp(x) = 2^n exp(r), n = round(x / ln 2), |r| <= ln 2 / 2 (Cody and Waite 1980, chapter 6);
 /// exp(r) = 1 + r + r^2 q(r), q the minimax polynomial of degree 10, 2e-19 off.
 template <int Size>
-Eigen::Array<double, Size, 1> exponential(const Eigen::Array<double, Size, 1>& x) noexcept {
+[[gnu::always_inline]] inline Eigen::Array<double, Size, 1> exponential(
+    const Eigen::Array<double, Size, 1>& x) noexcept {
   using Array = Eigen::Array<double, Size, 1>;
   constexpr double kToInteger = 6755399441055744.0;  // 1.5 * 2^52: the sum's last bits are the integer
   const Array shifted = x * 1.4426950408889634 + kToInteger;
