@@ -8,6 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dmpcpp import metrics, motion
 from dmpcpp._core import FitReport, NoiseEstimate, NoiseKind, PoseDemonstration, PoseDmp, assess
 from dmpcpp._takes import takes_apart
@@ -17,7 +20,7 @@ from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.recordings import Recording
 
-__all__ = ["Evidence", "Lesson", "evidence", "learn", "reproduction", "reproduction_checks", "teach"]
+__all__ = ["Evidence", "Lesson", "evidence", "learn", "learnable", "reproduction", "reproduction_checks", "teach"]
 
 _LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE to the motion without its noise
 _LIMIT_SHARE = 0.5  # of the error that smoothing leaves, if that is more
@@ -126,9 +129,12 @@ def evidence(demonstration: PoseDemonstration, *, smooth: bool = True) -> Eviden
     return Evidence(position, orientation, smoothed, demonstration.denoised() if smoothed else demonstration)
 
 
-def reproduction(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
-    """Errors of the model's rollout at the samples of the demonstration."""
-    return metrics.compare(demonstration.pose, model.rollout_at(demonstration.time).pose)
+def reproduction(
+    model: PoseDmp, demonstration: PoseDemonstration, measured: NDArray[np.bool_] | None = None
+) -> StageErrors:
+    """Errors of the model's rollout at the samples of the demonstration, or at those (T,) that were measured."""
+    poses, again = demonstration.pose, model.rollout_at(demonstration.time).pose
+    return metrics.compare(poses, again) if measured is None else metrics.compare(poses[measured], again[measured])
 
 
 def reproduction_checks(model: PoseDmp, found: Evidence) -> tuple[Check, ...]:
@@ -222,12 +228,25 @@ class Lesson(Checked):
         }
 
 
+def learnable(recording: Recording, *, smooth: bool = True, keep_rests: bool = False) -> Recording:
+    """Return the part of a recording that is learned, between the rests at its ends; parameters as in `teach`.
+
+    Raises
+    ------
+    InvalidArgument
+        One that cannot be learned or is no motion of a hand (`motion.plausible`).
+    """
+    recording = motion.plausible(motion.continuous(recording))
+    return recording if keep_rests else motion.without_rests(recording, smooth=smooth)
+
+
 def teach(
     recordings: Sequence[Recording],
     *,
     basis_count: int | None = None,
     smooth: bool = True,
     numbers: Sequence[str] | None = None,
+    keep_rests: bool = False,
 ) -> Lesson:
     """Learn one recording, or several of one motion together.
 
@@ -241,6 +260,8 @@ def teach(
         Whether noise that is found may be smoothed out.
     numbers : sequence of str, optional
         What checks call each recording: "2", or "2.3" of the third part of a file; from "1" by default.
+    keep_rests : bool
+        Whether rests before and behind the motion are learned with it (`motion.rests`).
 
     Raises
     ------
@@ -249,7 +270,7 @@ def teach(
     """
     if not recordings:
         raise InvalidArgument("recordings: none, expected at least one.")
-    kept = tuple(motion.plausible(motion.continuous(recording)) for recording in recordings)
+    kept = tuple(learnable(recording, smooth=smooth, keep_rests=keep_rests) for recording in recordings)
     demonstrations = tuple(map(motion.demonstration, kept))
     found = tuple(evidence(demonstration, smooth=smooth) for demonstration in demonstrations)
     if len(kept) == 1:

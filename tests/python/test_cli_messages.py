@@ -16,7 +16,7 @@ PACKAGE = Path(__file__).parents[2] / "python" / "dmpcpp"
 DATA = {  # what a file, a model or a class holds: no command passes such an argument on
     "time", "timestamp", "position", "rotation", "velocity", "pose", "joint_names", "joints", "b", "other", "names",
     "signal", "limit", "reference", "rounds", "speed", "max_residual", "candidates", "lead", "time_step", "mass_error",
-    "quaternion",
+    "quaternion", "measured",
     "payload_offset", "control_rate", "misjudged", "home", "half_width", "grasp_height", "bottle", "on", "kind",
 }  # fmt: skip
 

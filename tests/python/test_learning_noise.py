@@ -50,7 +50,7 @@ def test_several_takes_are_smoothed_if_one_of_them_has_to_be():
         "", position=clean.position + np.random.default_rng(5).normal(0.0, 0.2e-3, clean.position.shape)
     )
     for takes in ((noisy(0.2e-3), other), (clean, other), (other, clean)):
-        lesson = learning.teach(takes)
+        lesson = learning.teach(takes, keep_rests=True)
         assert lesson.model.options.derivatives.name == "smooth"
         assert lesson.fit.rmse[:3].max() < 0.3e-3
 

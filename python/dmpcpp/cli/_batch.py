@@ -101,6 +101,7 @@ def batch(
         "place": not no_place,
         "scale": scale_range(scale),
         "smooth": smooth,
+        "keep_rests": options.pop("keep_rests"),
         "basis_count": basis_count,
         "simulator": simulator,
         "accept": list(names(accept)),

@@ -16,7 +16,7 @@ from dmpcpp.cli._add_options import add_options
 from dmpcpp.cli._arm_options import arm_options, contact_options, follow_option, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines
 from dmpcpp.cli._config import save_config
-from dmpcpp.cli._flags import flag
+from dmpcpp.cli._flags import as_typed, flag
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
 from dmpcpp.cli._options import (
@@ -144,7 +144,18 @@ def imitate(file: Path, **options: Any) -> None:
     how = {"surroundings": taken_surroundings(options), "follow": options.pop("follow")}
     if callable(placing["place"]):
         placing["place"] = partial(placing["place"], follow=how["follow"])
-    taken = ("out", "seed", "basis_count", "simulator", "formats", "accept", "dynamics", "no_report", "as_json")
+    taken = (
+        "out",
+        "seed",
+        "basis_count",
+        "simulator",
+        "formats",
+        "accept",
+        "dynamics",
+        "no_report",
+        "as_json",
+        "keep_rests",
+    )
     run = {name: options.pop(name) for name in taken}
     loaded = recordings.load_all(file, **taken_recording(options))
     recording, *others = [part for each in loaded for part in motion.prepare_all(each, preparation)]
@@ -266,6 +277,8 @@ def _print(run: Imitation, out: Path) -> None:
         soft_wrap=True,
         markup=False,
     )
+    if run.calmer:
+        console.print(as_typed(run.calmer.describe()), style="yellow", soft_wrap=True, markup=False)
     console.print(_errors_table(run, Table))
     print_figures(console, run.summary())
     print_checks(console, run.checks)

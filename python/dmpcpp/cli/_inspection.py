@@ -50,6 +50,7 @@ def inspect(file: Path, plot: str | None, as_json: bool, **options: Any) -> None
     from dmpcpp import inspection
 
     preparation, _ = taken_preparation(options)
+    options.pop("keep_rests")  # of what is learned
     stated = taken_recording(options)
     found = inspection.inspect(file, preparation=preparation, **stated)
     if as_json:

@@ -112,7 +112,8 @@ def fit(
         )
     else:
         _require_no_arm({**options, "scale": scale})
-    lesson = teach(found, basis_count=basis_count, smooth=smooth, numbers=numbers)
+    keep_rests = options.pop("keep_rests")
+    lesson = teach(found, basis_count=basis_count, smooth=smooth, numbers=numbers, keep_rests=keep_rests)
     written = lesson.ok or len(found) == 1  # takes that do not belong together make no model
     config = out.with_name(f"{out.stem}.config.toml")
     if written:

@@ -66,6 +66,13 @@ def preparation_options(command: Callable[..., None]) -> Callable[..., None]:
             help="Smooth the recording, or never smooth it (default: smooth when measurement noise would "
             "disturb learning).",
         ),
+        click.option(
+            "--kind",
+            type=click.Choice(["capture", "tracker", "video"]),
+            help="What recorded the motion (default: as the file says): what a tracker or a video shows above 4 Hz is "
+            "left out, unless --low-pass or --no-smooth is specified.",
+        ),
+        click.option("--keep-rests", is_flag=True, help="Learn the rests before and behind the motion, too."),
     )
     return add_options(command, options)
 
@@ -77,10 +84,11 @@ def taken_preparation(options: dict[str, Any]) -> tuple[Preparation, bool]:
     smooth: bool | None = options.pop("smooth")
     taken = {name: options.pop(name) for name in _FIELDS}
     keep_outliers: bool = options.pop("keep_outliers")
-    return Preparation(**taken, outliers=not keep_outliers, smooth=smooth is True), smooth is not False
+    how = Preparation(**taken, outliers=not keep_outliers, keep_noise=smooth is False, smooth=smooth is True)
+    return how, smooth is not False
 
 
-_FIELDS = ("start", "end", "longest_gap", "segment", "repetition", "resample", "low_pass")
+_FIELDS = ("start", "end", "longest_gap", "segment", "repetition", "resample", "low_pass", "kind")
 
 
 _SCALE = (0.25, 1.0)

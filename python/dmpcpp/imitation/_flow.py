@@ -19,7 +19,8 @@ from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._engines import default_engine
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.learning import Evidence, Lesson, evidence, learn, reproduction, reproduction_checks, teach
+from dmpcpp.imitation._calmer import Calmer, calmer
+from dmpcpp.learning import Evidence, Lesson, evidence, learn, learnable, reproduction, reproduction_checks, teach
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.planning import Cycles, Engine, LookedAt, Placement, clear_of_itself, require_free_postures, solve
@@ -71,7 +72,7 @@ class Imitation(Checked):
         The joints with a lead-in and a lead-out: what was executed, and what a robot may get.
     log : ExecutionLog
     stages : dict of str to StageErrors
-        "demonstration_to_dmp" (at the recorded samples, equal phase), "dmp_to_ik", "ik_to_executed".
+        "demonstration_to_dmp" (at the samples that were measured, equal phase), "dmp_to_ik", "ik_to_executed".
     checks : tuple of Check
     evidence : Evidence
         What the recording shows of noise, as it stands in the robot's base frame, and whether it was taken out.
@@ -81,6 +82,8 @@ class Imitation(Checked):
         Checks that a person takes although they were not judged.
     contacts : LookedAt or None
         What is looked at for contacts, and what is left out.
+    calmer : Calmer or None
+        What a low-pass would gain, where the motion is much slower than recorded because of what is fast in it.
     """
 
     recording: Recording
@@ -97,6 +100,7 @@ class Imitation(Checked):
     second_log: ExecutionLog | None = None
     accepted: tuple[str, ...] = ()
     contacts: LookedAt | None = None
+    calmer: Calmer | None = None
 
     @property
     def noise(self) -> Noise:
@@ -133,6 +137,7 @@ class Imitation(Checked):
             "duration": self.plan.time[-1],
             "slowdown": self.slowdown,
             "leads": self.sent.to_dict(),
+            "calmer": self.calmer.to_dict() if self.calmer else None,
             "simulator": self.log.simulator,
             "second_simulator": self.second_log.simulator if self.second_log else None,
             "mode": self.log.mode,
@@ -151,6 +156,7 @@ def imitate(
     place: bool | PlacementPolicy = True,
     scale: tuple[float, float] | None = None,
     smooth: bool = True,
+    keep_rests: bool = False,
     basis_count: int | None = None,
     others: Sequence[Recording] = (),
     simulator: str | None = None,
@@ -177,6 +183,9 @@ def imitate(
         Range of position scales of that search; likewise. Default: that of `retarget.place`.
     smooth : bool
         Whether noise found in the recording may be smoothed out in learning; the recording's history says so.
+    keep_rests : bool
+        Whether rests before and behind the motion (`motion.rests`) are carried out with it. Durations and the slowdown
+        count what is learned.
     basis_count : int, optional
         Kernels of the model; by default as many as the motion needs.
     others : sequence of Recording
@@ -223,7 +232,7 @@ def imitate(
     tell("place", 0.0)
     looked_at = require_free_postures(arm, engines[0])
     clear = clear_of_itself(arm, engines[0])
-    recording = motion.plausible(motion.continuous(recording))
+    recording = learnable(recording, smooth=smooth, keep_rests=keep_rests or cycles is not None)
     if cycles is not None:
         if others:
             raise InvalidArgument(
@@ -237,14 +246,23 @@ def imitate(
     tell("learn", 0.0)
     demonstration = motion.demonstration(placed)
     found = evidence(demonstration, smooth=smooth)
-    lesson = _together(placed, others, placement, basis_count, smooth) if others else None
+    ready = [learnable(other, smooth=smooth, keep_rests=keep_rests) for other in others]
+    lesson = _together(placed, ready, placement, basis_count, smooth) if others else None
     model = lesson.model if lesson else learn(demonstration, basis_count, smooth=smooth, rhythmic=cycles is not None)
     placed = _noted(placed, found)
     tell("solve", 0.0)
-    led = Cycles(model, cycles) if cycles is not None else model
-    solution = solve(
-        led, arm, start=placement.start if placement else None, accept=clear, engine=engines[0], follow=followed
+    ways = partial(
+        solve,
+        arm=arm,
+        start=placement.start if placement else None,
+        accept=clear,
+        engine=engines[0],
+        follow=followed,
     )
+    solution = ways(Cycles(model, cycles) if cycles is not None else model)
+    less = None
+    if smooth and cycles is None:
+        less = calmer(placed, found.motion, solution.slowdown, lambda of: float(ways(of).motion.time[-1]))
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
     require_holdable(arm, joints.position)
     sent = sending.from_rest_to_rest(arm, joints, clear.keeps_clear)
@@ -253,7 +271,7 @@ def imitate(
     logs = _execute(arm, sent, engines, followed, mode, lambda done: tell("execute", done))
     log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
-        "demonstration_to_dmp": reproduction(model, demonstration),
+        "demonstration_to_dmp": reproduction(model, demonstration, placed.measured),
         "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
         "ik_to_executed": log.errors,
     }
@@ -264,7 +282,21 @@ def imitate(
     if dynamics == "none":
         checks = tuple(_by_kinematics(checks))
     return Imitation(
-        placed, placement, model, slowdown, plan, joints, sent, log, stages, checks, found, second, accepted, looked_at
+        placed,
+        placement,
+        model,
+        slowdown,
+        plan,
+        joints,
+        sent,
+        log,
+        stages,
+        checks,
+        found,
+        second,
+        accepted,
+        looked_at,
+        less,
     )
 
 
@@ -272,9 +304,8 @@ def _together(
     first: Recording, others: Sequence[Recording], placement: Placement | None, basis_count: int | None, smooth: bool
 ) -> Lesson:
     """Return what is learned from the first recording, as it was placed, and others in the same frame."""
-    whole = [motion.plausible(motion.continuous(recording)) for recording in others]
-    placed = [placement.apply_to(recording) for recording in whole] if placement else whole
-    return teach([first, *placed], basis_count=basis_count, smooth=smooth)
+    placed = [placement.apply_to(recording) for recording in others] if placement else others
+    return teach([first, *placed], basis_count=basis_count, smooth=smooth, keep_rests=True)
 
 
 def _engines(simulator: str, around: Surroundings) -> tuple[Engine, ...]:

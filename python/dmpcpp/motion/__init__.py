@@ -26,9 +26,10 @@ from dmpcpp.motion._poses import (
     turn_angles,
 )
 from dmpcpp.motion._preparation import Preparation, prepare, prepare_all
+from dmpcpp.motion._rests import rests, without_rests
 from dmpcpp.motion._rhythm import one_cycle
 from dmpcpp.motion._segmentation import cycles, segments, spans_of_cycles, spans_of_segments, speed
-from dmpcpp.motion._smoothing import Noise, low_pass, noise, smooth, white_noise
+from dmpcpp.motion._smoothing import Noise, evenly_sampled, low_pass, noise, smooth, white_noise
 from dmpcpp.motion._timing import crop, refine, resample
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "crop",
     "cycles",
     "demonstration",
+    "evenly_sampled",
     "fill",
     "gaps",
     "gaps_in",
@@ -63,6 +65,7 @@ __all__ = [
     "relative_to",
     "relative_to_pose",
     "resample",
+    "rests",
     "segments",
     "skipped",
     "smooth",
@@ -75,4 +78,5 @@ __all__ = [
     "turn_angles",
     "white_noise",
     "without_repeated_ends",
+    "without_rests",
 ]

@@ -147,6 +147,8 @@ def _filled(recording: Recording, found: tuple[Gap, ...]) -> Recording:
     rotation = Slerp(recording.time[known], Rotation.from_matrix(recording.rotation[known]))(time).as_matrix()
     kept = np.searchsorted(time, recording.time[known])
     position[kept], rotation[kept] = recording.position[known], recording.rotation[known]  # to the last digit
+    measured = np.zeros(len(time), dtype=bool)
+    measured[kept] = recording.measured[known]
     longest = max(found, key=lambda gap: gap.duration)
     return recording.with_(
         f"{len(found)} gaps filled with {len(time) - known.sum()} samples; the longest, {longest.duration:.3g} s, "
@@ -155,6 +157,7 @@ def _filled(recording: Recording, found: tuple[Gap, ...]) -> Recording:
         position=position,
         rotation=rotation,
         channels={name: np.interp(time, recording.time, values) for name, values in recording.channels.items()},
+        measured=measured,
     )
 
 

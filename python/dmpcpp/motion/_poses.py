@@ -59,10 +59,14 @@ def poses(recording: Recording) -> Array:
 
 
 def demonstration(recording: Recording) -> PoseDemonstration:
-    """Return the recording as what `PoseDmp.fit` learns from; times in s, poses (T, 4, 4) in m."""
+    """Return the recording as what `PoseDmp.fit` learns from; times in s, poses (T, 4, 4) in m.
+
+    Samples that were filled in show the way, but count for nothing where noise is estimated.
+    """
     from dmpcpp._core import PoseDemonstration
 
-    return PoseDemonstration(recording.time, poses(recording))
+    whole = PoseDemonstration(recording.time, poses(recording))
+    return whole if recording.measured.all() else whole.with_measured(recording.measured)
 
 
 def turn_angles(recording: Recording) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from dmpcpp._notes import Note
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.motion._cleaning import LONGEST_GAP, fill, outliers
 from dmpcpp.motion._ends import without_repeated_ends
@@ -12,11 +13,14 @@ from dmpcpp.motion._long import one_motion
 from dmpcpp.motion._segmentation import cycles, segments
 from dmpcpp.motion._smoothing import evenly_sampled, low_pass, smooth
 from dmpcpp.motion._timing import crop, resample
-from dmpcpp.recordings import Recording
+from dmpcpp.recordings import Recording, SourceKind
 
 __all__ = ["Preparation", "prepare", "prepare_all"]
 
 _OUTLIER_WINDOW = 11  # samples; a shorter recording has no neighbours to ask
+_WOBBLING = ("tracker", "video")
+_WOBBLE = 4.0  # Hz
+_FILTERED = 20  # samples that a filter needs
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,11 @@ class Preparation:
         Hz; take out what is faster. A recording with uneven steps is resampled at its own mean rate for it.
     smooth : bool
         Apply `motion.smooth`.
+    kind : SourceKind, optional
+        What recorded the motion, instead of what its file says. What a tracker or a video shows above 4 Hz is taken for
+        its wobble and left out, unless `low_pass` or `keep_noise` says otherwise.
+    keep_noise : bool
+        Leave nothing out because of the kind.
     """
 
     start: float = 0.0
@@ -52,6 +61,8 @@ class Preparation:
     resample: float | None = None
     low_pass: float | None = None
     smooth: bool = False
+    kind: SourceKind | None = None
+    keep_noise: bool = False
 
 
 def prepare(recording: Recording, how: Preparation | None = None) -> Recording:
@@ -106,10 +117,21 @@ def _finished(recording: Recording, how: Preparation) -> Recording:
     """Return a part resampled and filtered."""
     if how.resample is not None:
         recording = resample(recording, how.resample)
+    if how.low_pass is None and not how.keep_noise:
+        recording = _without_wobble(recording, how.kind or recording.kind)
     if how.low_pass is not None:
         recording = recording if evenly_sampled(recording) else resample(recording, recording.rate)
         recording = low_pass(recording, how.low_pass)
     return smooth(recording) if how.smooth else recording
+
+
+def _without_wobble(recording: Recording, kind: SourceKind) -> Recording:
+    """Return what a tracker or a video recorded below 4 Hz: its wobble is not told from a motion without a rest."""
+    if kind not in _WOBBLING or recording.rate <= 2.0 * _WOBBLE or len(recording) < _FILTERED:
+        return recording
+    even = recording if evenly_sampled(recording) else resample(recording, recording.rate)
+    said = f"recorded by a {kind}: what is faster than {_WOBBLE:g} Hz is taken for its wobble"
+    return low_pass(even.with_(Note("assumed", said, about="kind")), _WOBBLE)
 
 
 def _repaired(recording: Recording, how: Preparation) -> Recording:

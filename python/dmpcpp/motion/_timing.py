@@ -92,7 +92,8 @@ def refine(recording: Recording, distance: float, angle: float) -> Recording:
 
 def evaluated(recording: Recording, at: Array, note: str, time: Array | None = None) -> Recording:
     """Return the motion at the times `at` [s] of the recording: positions on a cubic spline (not-a-knot),
-    orientations on scipy's RotationSpline, channels on straight lines. Times of the result are `time`, `at` unless
+    orientations on scipy's RotationSpline, channels on straight lines; what lies nearest to a sample that was filled in
+    counts as filled in. Times of the result are `time`, `at` unless
     given.
     """
     continuous(recording, np.radians(179.0))
@@ -103,4 +104,5 @@ def evaluated(recording: Recording, at: Array, note: str, time: Array | None = N
         position=CubicSpline(recording.time, recording.position)(at),
         rotation=turning(at).as_matrix(),
         channels={name: np.interp(at, recording.time, values) for name, values in recording.channels.items()},
+        measured=np.interp(at, recording.time, recording.measured) >= 0.5,  # as the sample that is nearest
     )

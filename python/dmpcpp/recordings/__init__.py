@@ -15,6 +15,7 @@ guessed; what was taken as a default stands in the recording's history.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from dmpcpp.recordings._reader import Reader
 from dmpcpp.recordings._recording import MIN_SAMPLES as MIN_SAMPLES
 from dmpcpp.recordings._recording import Axis as Axis
 from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._recording import SourceKind as SourceKind
 from dmpcpp.recordings._registry import prepared, reader_of, summaries
 from dmpcpp.recordings._rigid_body import of_markers, rigid_body
 from dmpcpp.recordings._several import each_take
@@ -36,6 +38,7 @@ from dmpcpp.recordings._stamps import MADE_UP_IN_ALL as MADE_UP_IN_ALL
 from dmpcpp.recordings._stamps import too_many as too_many
 from dmpcpp.recordings._stamps import usual_step as usual_step
 from dmpcpp.recordings._statement import Stated
+from dmpcpp.recordings._table_lines import VIDEO_HEADER
 
 __all__ = [
     "Markers",
@@ -132,10 +135,17 @@ def load(
     """
     reader, said = prepared(path, format, stated)
     if markers is None:
-        return reader.call(reader.read, Path(path), body, said)
+        return _of_kind(reader.call(reader.read, Path(path), body, said), reader)
     if reader.markers is None:
         raise InvalidArgument(f"{Path(path).name}: markers: the format {reader.name!r} holds none.")
-    return reader.call(_rigid_body, Path(path), reader, markers, body, said)
+    return _of_kind(reader.call(_rigid_body, Path(path), reader, markers, body, said), reader)
+
+
+def _of_kind(recording: Recording, reader: Reader) -> Recording:
+    """Return the recording with what it was recorded by, where its format or its header says so."""
+    video = any(line.startswith(VIDEO_HEADER) for line in recording.history)
+    kind = "video" if video else reader.kind
+    return replace(recording, kind=kind) if kind else recording
 
 
 def load_all(

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from dmpcpp.errors import InvalidArgument, NotStated, within
 from dmpcpp.recordings._markers import Markers
-from dmpcpp.recordings._recording import Recording
+from dmpcpp.recordings._recording import Recording, SourceKind
 from dmpcpp.recordings._statement import Stated
 
 __all__ = ["COMMON", "Reader", "marker_reader", "no_orientation", "pick_body"]
@@ -39,6 +39,8 @@ class Reader:
     read : (path, body or None, stated) -> Recording
     markers : (path, stated) -> Markers, or None
         For formats that hold markers.
+    kind : SourceKind
+        What records files of this format, where that is always the same.
     """
 
     name: str
@@ -48,6 +50,7 @@ class Reader:
     bodies: Callable[[Path, Stated], tuple[str, ...]]
     read: Callable[[Path, str | None, Stated], Recording]
     markers: Callable[[Path, Stated], Markers] | None = None
+    kind: SourceKind = ""
 
     def check(self, stated: Stated) -> None:
         """Refuse what was stated although the format does not take it."""

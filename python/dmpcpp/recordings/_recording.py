@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,9 +13,11 @@ from dmpcpp._notes import Note
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["MIN_SAMPLES", "Array", "Axis", "Recording"]
+__all__ = ["MIN_SAMPLES", "Array", "Axis", "Recording", "SourceKind"]
 
 Axis = Literal["x", "y", "z"]
+SourceKind = Literal["", "capture", "tracker", "video"]
+"""What recorded a motion: motion capture or a guided arm; a tracker that estimates poses; a video. "": not known."""
 
 MIN_SAMPLES = 8
 """Fewer samples do not describe a motion."""
@@ -49,6 +51,10 @@ class Recording:
         What was done to the data on the way here, one sentence a step, oldest first.
     channels : mapping of str to array (T,)
         Other quantities at the same times, such as a gripper's width, in the file's units; NaN where missing.
+    measured : array_like (T,) of bool, optional
+        Which samples were measured, not filled in; all unless given. A missing one never was.
+    kind : "", "capture", "tracker" or "video"
+        What recorded it, where that is known.
 
     Raises
     ------
@@ -66,6 +72,8 @@ class Recording:
     up_axis: Axis | None = None
     history: tuple[str, ...] = ()  # of Note: plain text counts as something that was changed
     channels: Mapping[str, Array] = field(default_factory=dict)
+    measured: NDArray[np.bool_] = None  # type: ignore[assignment]  # an array once it is made
+    kind: SourceKind = ""
 
     def __post_init__(self) -> None:
         """Take the arrays over as read-only float64 and check them."""
@@ -77,6 +85,7 @@ class Recording:
         _check_shapes(self.time, self.position, self.rotation)
         _check_time(self.time)
         missing = self.missing
+        object.__setattr__(self, "measured", _measured(self.measured, missing))
         if len(self.time) - missing.sum() < 2:
             raise InvalidArgument(
                 f"position: {missing.sum()} of {len(self.time)} samples are missing (NaN), expected at least two that "
@@ -88,6 +97,10 @@ class Recording:
         _check_rotation(self.rotation, missing)
         if self.up_axis not in (None, "x", "y", "z"):
             raise InvalidArgument(f"up_axis: {self.up_axis!r}, expected 'x', 'y', 'z' or None.")
+        if self.kind not in get_args(SourceKind):
+            raise InvalidArgument(
+                f"kind: {self.kind!r}, expected capture, tracker, video, or '' where it is not known."
+            )
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -125,15 +138,16 @@ class Recording:
             position=self.position[kept],
             rotation=self.rotation[kept],
             channels={name: values[kept] for name, values in self.channels.items()},
+            measured=self.measured[kept],
         )
 
     def with_(self, note: str, **changes: object) -> Recording:
         """Return a copy with the fields in `changes` replaced and `note` appended to its history.
 
-        Other times drop the channels unless these are given, too.
+        Other times drop the channels, and what was measured, unless these are given, too.
         """
         if "time" in changes:
-            changes = {"channels": {}, **changes}
+            changes = {"channels": {}, "measured": None, **changes}
         return replace(self, history=(*self.history, note), **changes)  # type: ignore[arg-type]
 
 
@@ -147,6 +161,18 @@ def _owned(name: str, values: ArrayLike) -> Array:
         raise InvalidArgument(f"{name}: not an array of numbers ({error}).") from None
     array.setflags(write=False)
     return array
+
+
+def _measured(given: ArrayLike | None, missing: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    measured = np.ones(len(missing), dtype=bool) if given is None else np.array(given)
+    if measured.shape != missing.shape or measured.dtype != bool:
+        raise InvalidArgument(
+            f"measured: shape {measured.shape} of {measured.dtype}, expected ({len(missing)},) of bool, one for each "
+            "time."
+        )
+    measured &= ~missing
+    measured.setflags(write=False)
+    return measured
 
 
 def _check_shapes(time: Array, position: Array, rotation: Array) -> None:

@@ -10,10 +10,13 @@ from dmpcpp._text import Lines, Row, data_lines, split
 from dmpcpp.errors import InvalidArgument, NotStated
 from dmpcpp.recordings._columns import known_unit
 
-__all__ = ["TableLines", "is_data", "shown", "table_lines"]
+__all__ = ["VIDEO_HEADER", "TableLines", "is_data", "shown", "table_lines"]
 
 _COMMENTS = ("#", "%")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:e[+-]?\d+)?", re.IGNORECASE)
+VIDEO_HEADER = "DeepLabCut or Anipose"
+"""How the note on a table of poses found in a video begins."""
+
 _POSE_NETWORK = ("scorer", "individuals", "bodyparts", "coords")
 _LOOKED_AT = 20  # lines of data that show whether commas are decimal
 
@@ -72,7 +75,7 @@ def _with_one_header(lines: list[tuple[int, str]], delimiter: str) -> tuple[list
     parts = [[cell.strip() for cell in cells] for cells, _ in heads[1:]]
     width = min(map(len, parts))
     names = ["frame", *("_".join(row[k] for row in parts) for k in range(1, width))]
-    note = "DeepLabCut or Anipose: three lines of names; positions without orientations, frames without times"
+    note = f"{VIDEO_HEADER}: three lines of names; positions without orientations, frames without times"
     return [(heads[0][1], delimiter.join(names)), *lines[len(heads) :]], [note]
 
 
