@@ -25,6 +25,7 @@ ALIASES = {
     "poses": "file",
     "recording": "file",
     "recordings": "files",
+    "robot": "address",
     "tolerance": "stated",
 }
 """Parameters of the library that have another name in a command."""

@@ -70,7 +70,7 @@ def checked(trajectory: JointMotion, arm: Arm | None = None) -> JointSamples:
 
 
 def check_limits(trajectory: JointMotion, arm: Arm) -> None:
-    """Refuse joints outside the arm's limits of position or velocity.
+    """Check position and velocity limits (not acceleration or effort).
 
     Raises
     ------

@@ -186,7 +186,7 @@ def _require_fr3(arm: Arm) -> None:
     if not numbered or not ("fr3" in arm.name.lower() or all("fr3" in name for name in names)):
         raise RobotError(
             f"the plan is of arm {arm.name!r} with joints {', '.join(names)}, and the robot is an FR3 (fr3_joint1 to "
-            "fr3_joint7). Plan for it: --arm fr3, or its URDF."
+            "fr3_joint7). Plan for the arm fr3, or for its URDF."
         )
 
 

@@ -163,7 +163,7 @@ def _problems(
     if info.payload is not None and abs(info.payload - planned) > 1e-3:
         yield (
             f"the robot carries {info.payload:g} kg and the plan {planned:g} kg. Set the robot's load, or plan with "
-            f"--payload {info.payload:g}."
+            f"a payload of {info.payload:g} kg."
         )
 
 
