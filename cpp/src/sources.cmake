@@ -46,18 +46,26 @@ set(DMP_core_SOURCES
   spline/smoothing_fit.cpp
   spline/spline.cpp)
 set(DMP_kinematics_SOURCES
+  kinematics/bordered_band.cpp
   kinematics/bounded_lm.cpp
   kinematics/box_step.cpp
   kinematics/calming.cpp
+  kinematics/fit_arguments.cpp
+  kinematics/fit_penalties.cpp
+  kinematics/fit_problem.cpp
+  kinematics/fit_spline.cpp
   kinematics/ik_branches.cpp
   kinematics/ik_search.cpp
   kinematics/inverse_kinematics.cpp
   kinematics/joint_range.cpp
   kinematics/joint_tracker.cpp
   kinematics/kdl_backend.cpp
+  kinematics/path_between.cpp
+  kinematics/path_fit.cpp
   kinematics/path_tracker.cpp
   kinematics/path_tracking.cpp
   kinematics/pose_goal.cpp
+  kinematics/reach_speed.cpp
   kinematics/roadmap.cpp
   kinematics/route_search.cpp
   kinematics/singularity.cpp
@@ -71,11 +79,15 @@ set(DMP_kinematics_SOURCES
   robot/joint_trajectory.cpp
   robot/kdl_chain.cpp
   robot/kdl_forward.cpp
+  robot/tip_motion.cpp
   robot/tool_frame.cpp
   robot/urdf_chain.cpp
   robot/urdf_graph.cpp
   robot/urdf_scan.cpp
+  timing/demands.cpp
+  timing/pacing.cpp
   timing/path_timing.cpp
   timing/spline_extremes.cpp
+  timing/tempo_curve.cpp
   timing/time_optimal.cpp
   timing/time_scaling.cpp)

@@ -1,6 +1,7 @@
 #include <dmp/error.hpp>
 
 #include "bind.hpp"
+#include "bind_tempo.hpp"
 
 namespace {
 
@@ -68,4 +69,6 @@ PYBIND11_MODULE(_core, m) {
   dmp::python::bind_kinematics(m);
   dmp::python::bind_joint_tracker(m);
   dmp::python::bind_timing(m);
+  dmp::python::bind_pacing(m);
+  dmp::python::bind_path_fit(m);
 }

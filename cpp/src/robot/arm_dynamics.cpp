@@ -48,6 +48,11 @@ Eigen::VectorXd ArmDynamics::holding(const Eigen::VectorXd& q) {
   return effort(standing_, q, none, none);
 }
 
+Eigen::VectorXd ArmDynamics::total(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
+                                   const Eigen::VectorXd& acceleration) {
+  return effort(standing_, q, velocity, acceleration);
+}
+
 Eigen::VectorXd ArmDynamics::moving(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
                                     const Eigen::VectorXd& acceleration) {
   return effort(weightless_, q, velocity, acceleration);

@@ -15,6 +15,9 @@ class ArmDynamics {
 
   /// (n) N m or N that holds the arm still at q.
   Eigen::VectorXd holding(const Eigen::VectorXd& q);
+  /// (n) N m or N, of holding and moving together.
+  Eigen::VectorXd total(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
+                        const Eigen::VectorXd& acceleration);
   /// (n) N m or N, beyond `holding`, of the velocity and acceleration.
   Eigen::VectorXd moving(const Eigen::VectorXd& q, const Eigen::VectorXd& velocity,
                          const Eigen::VectorXd& acceleration);
