@@ -131,3 +131,27 @@ TEST_CASE("what a coupling cannot mean makes the run not finite, with the last f
   second.reset();
   CHECK(second.step(1e-3) == Status::running);
 }
+
+TEST_CASE("a paused run does not ask its coupling, and goes on where it stood") {
+  const PoseDmp model = PoseDmp::fit(pose(100, 2.0));
+  PoseRun run(model), plain(model);
+  const auto divides = [](const CouplingState<PoseSpace>& state) noexcept {
+    return Vector6(Vector6::Zero() / (state.speed * state.speed));  // as the documentation has it
+  };
+  for (int i = 0; i < 500; ++i) {
+    run.step(1e-3, divides);
+    plain.step(1e-3);
+  }
+  run.pause();
+  plain.pause();
+  for (int i = 0; i < 8000; ++i) {
+    CHECK(run.step(1e-3, divides) == Status::running);
+    plain.step(1e-3);
+  }
+  CHECK(run.twist().norm() == 0.0);
+  run.resume();
+  plain.resume();
+  while (plain.step(1e-3) == Status::running) run.step(1e-3, divides);
+  CHECK(run.step(1e-3, divides) == Status::finished);
+  CHECK((run.pose() - plain.pose()).norm() < 1e-9);
+}

@@ -151,3 +151,21 @@ TEST_CASE("weights of another size are refused where they come from") {
   CHECK(message_of([&] { Dmp::fit(reach(100, 1.0), options, wrong); }) ==
         "learner: weights: 3 x 2, expected 100 x 3 (kernels x axes).");
 }
+
+TEST_CASE("the condition of the regression is had for the options as they come") {
+  const double condition = regression_condition(DmpOptions{});
+  CHECK(std::isfinite(condition));
+  CHECK(condition > 1.0);
+  DmpOptions narrow;
+  narrow.overlap = -1.0;
+  CHECK(message_of([&] { regression_condition(narrow); }).find("overlap") != std::string::npos);
+}
+
+TEST_CASE("a model whose rotations turn along takes no scaling by (goal - start), however the form is chosen") {
+  DmpOptions options;
+  options.orientation_form = OrientationForm::turning;
+  PoseDmpParameters parameters = PoseDmp::fit(pose(100, 2.0), options).parameters();
+  parameters.options.orientation_form = OrientationForm::automatic;
+  parameters.options.scaling = Scaling::per_axis;
+  CHECK(message_of([&] { PoseDmp model(parameters); }).find("scaling") != std::string::npos);
+}

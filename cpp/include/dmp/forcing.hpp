@@ -73,7 +73,7 @@ using Learner =
 
 /// The condition number of the matrix that fit_forcing solves with (ridge) or descends on (locally weighted
 /// regression), for samples spread evenly over the phase.
-/// Beyond 300 kernels that of 300. `options` with every optional one given.
+/// Beyond 300 kernels that of 300. Throws InvalidArgument for options that no fit takes.
 DMP_EXPORT double regression_condition(const DmpOptions& options);
 
 }  // namespace dmp

@@ -27,7 +27,7 @@ void warn(FitReport& report, const std::vector<Index>& sizes, const DmpOptions& 
     report.warnings.push_back("rmse: " + number(excess) + " times the tolerance. " +
                               (report.suggested_basis_count > 0
                                    ? std::to_string(report.suggested_basis_count) + " kernels reach it."
-                                   : "More kernels do not help; Derivatives::smooth may."));
+                                   : "More kernels do not help; smoothing may."));
   for (std::size_t j = 0; j < sizes.size(); ++j)
     if (sizes[j] < 3)
       report.warnings.push_back(

@@ -153,7 +153,7 @@ RowMatrix fit_forcing(const GaussianBasis& basis, const std::vector<ForcingTarge
 double regression_condition(const DmpOptions& options) {
   // Eigenvalues cost the cube of the kernels, and more of them with the same overlap change nothing.
   constexpr int kEnough = 300;
-  DmpOptions looked_at = options;
+  DmpOptions looked_at = options.resolved();
   looked_at.basis_count = std::min(options.basis_count > 0 ? options.basis_count : kEnough, kEnough);
   const GaussianBasis basis = detail::basis_of(looked_at);
   if (basis.is_periodic()) return detail::round_condition(basis, options.ridge);

@@ -8,68 +8,80 @@
 
 namespace dmp::detail {
 
-// How a goal approaches its target, and when it has arrived but for rounding: the only part of the filter
-// that depends on the space.
+// Puts `goal` where `left` of the way from `from` to `target` is before it, and whether two points are the same: the only
+// parts of the filter that depend on the space.
 
-/// Leaves `share` of the way.
-inline void approach(Eigen::VectorXd& goal, const Eigen::VectorXd& target, double share) noexcept {
-  goal = target + share * (goal - target);
+inline void put_on_way(Eigen::VectorXd& goal, const Eigen::VectorXd& from, const Eigen::VectorXd& target,
+                       double left) noexcept {
+  goal = target + left * (from - target);
 }
-inline void approach(Eigen::Quaterniond& goal, const Eigen::Quaterniond& target, double share) noexcept {
-  const Eigen::Vector3d way = so3::log(Eigen::Quaterniond(target * goal.conjugate()));
-  goal = so3::exp_quaternion((1.0 - share) * way) * goal;
-}
-
-inline bool arrived(const Eigen::VectorXd& goal, const Eigen::VectorXd& target) noexcept {
-  return ((goal - target).array().abs() <= 1e-15 * target.array().abs() + 1e-300).all();
-}
-inline bool arrived(const Eigen::Quaterniond& goal, const Eigen::Quaterniond& target) noexcept {
-  return (target * goal.conjugate()).vec().norm() < 1e-15;
+inline void put_on_way(Eigen::Quaterniond& goal, const Eigen::Quaterniond& from, const Eigen::Quaterniond& target,
+                       double left) noexcept {
+  const Eigen::Vector3d way = so3::log(Eigen::Quaterniond(from * target.conjugate()));
+  goal = so3::exp_quaternion(left * way) * target;
 }
 
-/// The goal g of a motion, which approaches the one that was set, g*: tau gd = alpha_g (g* - g). No
-/// allocation once constructed.
+template <class Given>
+bool same(const Eigen::MatrixBase<Given>& a, const Eigen::VectorXd& b) noexcept {
+  return a == b;
+}
+template <class Given>
+bool same(const Eigen::QuaternionBase<Given>& a, const Eigen::Quaterniond& b) noexcept {
+  return a.coeffs() == b.coeffs();
+}
+
+/// The goal g of a motion, which approaches the one that was set, g*: tau gd = alpha_g (g* - g). The share of the way
+/// that is left is kept, and not only the goal itself, so that it arrives where that share is rounding. No allocation
+/// once constructed.
 template <class Point>
 class GoalFilter {
  public:
   /// `rate` is alpha_g; 0 jumps.
-  GoalFilter(double rate, const Point& goal) : rate_(rate), goal_(goal), target_(goal) {}
+  GoalFilter(double rate, const Point& goal) : rate_(rate), from_(goal), goal_(goal), target_(goal) {}
 
   const Point& goal() const noexcept { return goal_; }
   const Point& target() const noexcept { return target_; }
   /// The goal is the target.
-  bool settled() const noexcept { return settled_; }
+  bool settled() const noexcept { return left_ == 0.0; }
 
+  /// Sets another target; the one that is approached already changes nothing.
   template <class Given>
   void set(const Given& target) noexcept {
+    if (same(target, target_)) return;
     target_ = target;
-    settled_ = rate_ == 0.0;
-    if (settled_) goal_ = target_;
+    from_ = goal_;
+    left_ = 1.0;
+    if (rate_ == 0.0) jump();
   }
   void jump() noexcept {
     goal_ = target_;
-    settled_ = true;
+    left_ = 0.0;
   }
   /// The share of its way that the goal has left after `step` of the phase.
   double left_after(double step) const noexcept { return std::exp(-rate_ * step); }
   Point after(double step) const noexcept {
     Point goal = goal_;
-    approach(goal, target_, left_after(step));
+    put_on_way(goal, from_, target_, left_ * left_after(step));
     return goal;
   }
-  void move_to(const Point& goal) noexcept { goal_ = goal; }
-  void advance(double share_left) noexcept { approach(goal_, target_, share_left); }
+  void advance(double share_left) noexcept {
+    left_ *= share_left;
+    put_on_way(goal_, from_, target_, left_);
+  }
   /// Ends the way where what is left of it is rounding; whether the goal is the target now.
   bool settle() noexcept {
-    if (!settled_ && arrived(goal_, target_)) jump();
-    return settled_;
+    if (left_ < kRounding) jump();
+    return settled();
   }
 
  private:
+  static constexpr double kRounding = 1e-16;
+
   double rate_;
+  Point from_;  // where the goal was when the target was set
   Point goal_;
   Point target_;
-  bool settled_ = true;
+  double left_ = 0.0;  // share of the way from there to the target
 };
 
 }  // namespace dmp::detail

@@ -106,6 +106,7 @@ DmpOptions RotationGeometry::settle(const DmpOptions& given, const Ends<Rotation
                               ? "reference: given, expected none unless options.orientation_form is turning."
                               : "reference: none, expected one for options.orientation_form turning.");
   if (turns) TurningReference{ends.reference};
+  options.validate();  // turning, where it was just chosen, cannot be scaled by (goal - start)
   return options;
 }
 

@@ -162,7 +162,7 @@ void RotationSystem::advance_ude(double step, const Nodes& drive) noexcept {
   q_ = so3::exp_quaternion(step / 6.0 * (v1 + 2.0 * (v2 + v3) + v4)) * q_;
   eta_ += step / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
   eta_ = flushed<Eigen::Array3d>(eta_);
-  if (!goal_.settled()) goal_.move_to(goal_end);
+  if (!goal_.settled()) goal_.advance(goal_.left_after(step));
   e_ = error(goal_end, q_);
 }
 

@@ -212,13 +212,14 @@ class Runner {
 
   /// Asks the coupling what it adds from here on.
   [[gnu::noinline]] void evaluate_coupling(double s) noexcept {
+    coupling_value_.setZero();
+    if (phase_.speed() == 0.0) return;  // paused: no acceleration over phase moves it, and a / speed^2 is none
     system_.set_phase(s);
     coupling_state_.phase = s;
     coupling_state_.speed = phase_.speed();
     coupling_state_.point = system_.point();
     coupling_state_.goal = system_.goal();
     system_.velocity(coupling_state_.speed, coupling_state_.velocity.data());
-    coupling_value_.setZero();
     coupling_->add_to(coupling_value_.data(), coupling_value_.size(), coupling_state_);
     system_.to_drive(coupling_value_.data());
   }
