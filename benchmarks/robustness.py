@@ -14,11 +14,11 @@ from functools import cache
 
 import click
 import numpy as np
-from dmpcpp import Demonstration, Dmp, OrientationDemonstration, OrientationDmp
+from dmpcpp import Demonstration, Dmp, OrientationDemonstration, OrientationDmp, Scaling
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from benchmarks import accuracy, peers, series
+from benchmarks import accuracy, new_goals, peers, series
 from benchmarks.demonstrations import minimum_jerk
 from benchmarks.figures import Figure
 
@@ -28,7 +28,7 @@ _LEARNED = 1.5  # times the true largest acceleration
 _SHARES = {"rounded to 1 mm": 4.0}  # percent that may learn noise, 1 elsewhere
 
 
-def measure(seeds: int) -> Iterator[Figure]:
+def measure(seeds: int, scaling: str = "automatic") -> Iterator[Figure]:
     """Measure everything, figure by figure."""
     yield from default_on_noise(seeds)
     for kind in series.NOISY:
@@ -36,7 +36,7 @@ def measure(seeds: int) -> Iterator[Figure]:
     for kind in series.CLEAN:
         yield from clean(kind, seeds)
     yield from turns()
-    yield from goals()
+    yield from new_goals.goals(scaling)
 
 
 def default_on_noise(seeds: int) -> list[Figure]:
@@ -120,30 +120,6 @@ def turns() -> list[Figure]:
     ]
 
 
-def goals() -> list[Figure]:
-    """A reach of 0.4 m led to a goal at half the way, by each scaling that suits it: how far it goes back first, and
-    how it starts."""
-    return [figure for scaling in ("none", "advance") for figure in _led_back(scaling)]
-
-
-def _led_back(scaling: str) -> list[Figure]:
-    time = np.linspace(0.0, 2.0, 401)
-    truth = minimum_jerk(time / 2.0)[:, None] * [0.4, 0.0, 0.0]
-    model = Dmp.fit(Demonstration(time, truth), scaling=scaling)
-    moved = model.rollout(goal=np.array([0.2, 0.0, 0.0]), dt=1e-3)
-    peak = np.abs(model.rollout(dt=1e-3).acceleration).max()
-    start = float(np.linalg.norm(moved.acceleration[0]) / peak)
-    return [
-        Figure(
-            f"reach to half the way, scaling {scaling}: back beyond the demonstration",
-            float(1e3 * max(0.0, -moved.position.min())),
-            0.1,
-            "mm",
-        ),
-        Figure("the same: acceleration at the start over the peak", start, 0.15, "1"),
-    ]
-
-
 def _of_others(time: Array, value: Array, count: int) -> Array:
     from movement_primitives.dmp import DMP
 
@@ -186,10 +162,17 @@ def _whittaker(count: int) -> tuple[Array, Array]:
 
 @click.command()
 @click.option("--seeds", default=100, show_default=True, type=click.IntRange(4), help="Motions of each class.")
+@click.option(
+    "--scaling",
+    default="automatic",
+    show_default=True,
+    type=click.Choice(list(Scaling.__members__)),
+    help="With which new goals are approached.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the figures as JSON instead of the table.")
-def main(seeds: int, as_json: bool) -> None:
+def main(seeds: int, scaling: str, as_json: bool) -> None:
     """Measure how learning stands noise, losses, full turns and new goals, with the goal of every figure."""
-    measured = list(measure(seeds))
+    measured = list(measure(seeds, scaling))
     if as_json:
         click.echo(json.dumps({"seeds": seeds, "figures": [figure.to_dict() for figure in measured]}, indent=2))
     else:

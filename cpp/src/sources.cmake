@@ -31,6 +31,7 @@ set(DMP_core_SOURCES
   primitive/pose_dmp.cpp
   primitive/pose_gripper_dmp.cpp
   primitive/pose_space.cpp
+  primitive/rescaling.cpp
   primitive/rotation_space.cpp
   primitive/rotation_system.cpp
   primitive/sequence.cpp

@@ -134,6 +134,14 @@ void bind_learning(py::module_& m) {
       .value("not_finite", Status::not_finite)
       .value("too_late", Status::too_late)
       .finalize();
+  py::class_<EndPeaks>(
+      m, "EndPeaks",
+      "Accelerations (m/s^2, rad/s^2) in the first and the last 3 % of a demonstration: the largest of the "
+      "model, and the largest second difference of the samples, which hold no more.")
+      .def_readonly("start", &EndPeaks::start, "of the model, in the first 3 %")
+      .def_readonly("goal", &EndPeaks::goal, "of the model, in the last 3 %")
+      .def_readonly("start_samples", &EndPeaks::start_samples, "what the samples hold there")
+      .def_readonly("goal_samples", &EndPeaks::goal_samples, "what the samples hold there");
   py::class_<FitReport>(
       m, "FitReport",
       "How a model reproduces demonstrations. Columns: dimensions of a position; components of the "
@@ -152,6 +160,8 @@ void bind_learning(py::module_& m) {
           "evidence", &FitReport::evidence,
           "what each demonstration shows of noise: a list of NoiseEstimate, of its positions, of its "
           "orientations, or of both")
+      .def_readonly("ends", &FitReport::ends,
+                    "the accelerations at the ends of each demonstration: a list of EndPeaks, as evidence")
       .def_readonly("largest_log", &FitReport::largest_log, "rad, the largest |Log(Rg R^T)| on the way")
       .def_readonly("condition", &FitReport::condition, "of the regression's matrix")
       .def_readonly("suggested_basis_count", &FitReport::suggested_basis_count,

@@ -251,7 +251,29 @@ void def_learning(py::class_<Primitive<Space>>& model) {
       .def(
           "with_weights",
           [](const Model& d, const Array& weights) { return d.with_weights(to_matrix(weights, "weights")); },
-          py::arg("weights"), "The same model with other weights (N, dims).");
+          py::arg("weights"), "The same model with other weights (N, dims).")
+      .def(
+          "with_scaling",
+          [](const Model& d, const py::object& scaling) {
+            py::kwargs fields;
+            fields["scaling"] = scaling;
+            const Scaling wanted = options_with(std::nullopt, fields).scaling;
+            const py::gil_scoped_release release;
+            return d.with_scaling(wanted);
+          },
+          py::arg("scaling"),
+          "The same motion, led to new starts and goals by another Scaling, or its name. Of several "
+          "demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an unknown "
+          "one, or one that the form of orientations does not bear.")
+      .def(
+          "scaling_notes",
+          [](const Model& d, const std::optional<typename InPython<Space>::Given>& goal) {
+            if (!goal) return d.scaling_notes(d.goal());
+            return d.scaling_notes(InPython<Space>::to_point(*goal, "goal"));
+          },
+          py::arg("goal") = py::none(),
+          "Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), a "
+          "line for each axis; see DmpOptions.scaling_guard.");
 }
 
 template <class Space>
@@ -331,11 +353,10 @@ void def_rollout(py::class_<Primitive<Space>>& model) {
           py::arg("via") = py::tuple(),
           "The motion from the demonstrated start to `goal` (shaped as the property goal; the demonstrated "
           "one "
-          "unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... up to the "
-          "duration. Raises InvalidArgument for a wrong shape, a number that is not finite or not positive, "
-          "more than 10^7 samples, or a motion that does not stay finite. `via`: a list of Via that it "
-          "passes, "
-          "in the order of their phases.")
+          "unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... and the "
+          "duration, the last step shorter where dt does not divide it. Raises InvalidArgument for a wrong "
+          "shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not "
+          "stay finite. `via`: a list of Via that it passes, in the order of their phases.")
       .def(
           "rollout_at",
           [to_goal](const Model& d, const Array& times, const std::optional<Given>& goal,

@@ -8,12 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from dmpcpp import metrics
-from dmpcpp._core import DmpOptions, PoseDemonstration, PoseDmp, PoseRun
+from dmpcpp._core import DmpOptions, PoseDemonstration, PoseDmp, PoseRun, align
 from dmpcpp.checks import Check
 from dmpcpp.metrics import StageErrors
 
 _FEWEST = 3  # of two takes that differ nobody knows which is the other one
-_TIMES_MEDIAN = (3.0, 5.0)  # of few takes, of many: takes of one letter by one hand come to 4.3
+_TIMES_MEDIAN = 3.0
+_SAMPLES = 400  # at which two paths are compared
 _SHARE_OF_EXTENT = 0.05
 _ANGLE = math.radians(10.0)
 
@@ -21,25 +22,22 @@ _ANGLE = math.radians(10.0)
 def takes_apart(
     demonstrations: Sequence[PoseDemonstration], sources: Sequence[str], numbers: Sequence[str], options: DmpOptions
 ) -> tuple[Check, ...]:
-    """Return a failed check for each take that the model of the others misses by more than 3 to 5 times the median of
-    such misses (RMS), and by more than 5 % of its extent or 10 deg.
+    """Return a failed check for each take that the model of the others misses by more than 3 times the median of such
+    misses (RMS), and by more than 5 % of its extent or 10 deg.
 
-    Each model runs from the take's own start to its goal within its duration. `numbers` are what the takes are called.
+    Each model runs from the take's own start to its goal within its duration; samples are compared as dynamic time
+    warping pairs them, as hands that do the same seldom do it in the same rhythm. `numbers` are what the takes are
+    called.
     """
     if len(demonstrations) < _FEWEST:
         return ()
-    misses = [
-        _miss(PoseDmp.fit([*demonstrations[:k], *demonstrations[k + 1 :]], options), one)
-        for k, one in enumerate(demonstrations)
-    ]
+    misses = misses_of(demonstrations, options)
     usual_position = float(np.median([miss.position_rmse for miss in misses]))
     usual_angle = float(np.median([miss.angle_rmse for miss in misses]))
-    # One take that is different moves the models of the others by its share of them.
-    times = float(np.clip(0.75 * (len(demonstrations) - 1), *_TIMES_MEDIAN))
     checks = []
     for k, (miss, one) in enumerate(zip(misses, demonstrations, strict=True)):
-        position = max(times * usual_position, _SHARE_OF_EXTENT * _extent(one))
-        angle = max(times * usual_angle, _ANGLE)
+        position = max(_TIMES_MEDIAN * usual_position, _SHARE_OF_EXTENT * _extent(one))
+        angle = max(_TIMES_MEDIAN * usual_angle, _ANGLE)
         detail = f"take {numbers[k]} ({sources[k]}) against the model of the others"
         for what, found, limit, unit in (
             ("position", miss.position_rmse, position, "m"),
@@ -48,6 +46,14 @@ def takes_apart(
             if found > limit:
                 checks.append(Check(f"take_{numbers[k]}_{what}_rmse", False, found, limit, unit, detail=detail))
     return tuple(checks)
+
+
+def misses_of(demonstrations: Sequence[PoseDemonstration], options: DmpOptions) -> list[StageErrors]:
+    """Return by how much the model of all other takes misses each of them."""
+    return [
+        _miss(PoseDmp.fit([*demonstrations[:k], *demonstrations[k + 1 :]], options), one)
+        for k, one in enumerate(demonstrations)
+    ]
 
 
 def _miss(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
@@ -61,7 +67,10 @@ def _miss(model: PoseDmp, demonstration: PoseDemonstration) -> StageErrors:
     for step in np.diff(demonstration.time, prepend=0.0):
         run.step(float(step))
         poses.append(np.array(run.pose))
-    return metrics.compare(demonstration.pose, np.array(poses))
+    some = np.unique(np.linspace(0, len(poses) - 1, _SAMPLES).round().astype(int))
+    shown, again = demonstration.pose[some], np.array(poses)[some]
+    pairs = align(shown, again).path
+    return metrics.compare(shown[pairs[:, 0]], again[pairs[:, 1]])
 
 
 def _extent(demonstration: PoseDemonstration) -> float:

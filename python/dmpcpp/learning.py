@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dmpcpp import metrics, motion
-from dmpcpp._core import FitReport, NoiseEstimate, NoiseKind, PoseDemonstration, PoseDmp, assess
+from dmpcpp._core import EndPeaks, FitReport, NoiseEstimate, NoiseKind, PoseDemonstration, PoseDmp, assess
 from dmpcpp._takes import takes_apart
 from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
@@ -211,6 +211,7 @@ class Lesson(Checked):
                 "rmse": self.fit.rmse.tolist(),
                 "largest": self.fit.largest.tolist(),
                 "suggested_basis_count": self.fit.suggested_basis_count,
+                "ends": [[_accelerations(part) for part in parts] for parts in self.fit.ends],
                 "warnings": list(self.fit.warnings),
             },
             "recordings": [
@@ -226,6 +227,11 @@ class Lesson(Checked):
                 for recording, noise, found in zip(self.recordings, self.noise, self.evidence, strict=True)
             ],
         }
+
+
+def _accelerations(peaks: EndPeaks) -> dict[str, float]:
+    """Return what an end of a part (position, then orientation) holds, for JSON; m/s^2 or rad/s^2."""
+    return {name: getattr(peaks, name) for name in ("start", "start_samples", "goal", "goal_samples")}
 
 
 def learnable(recording: Recording, *, smooth: bool = True, keep_rests: bool = False) -> Recording:

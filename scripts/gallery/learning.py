@@ -95,13 +95,14 @@ def scaling() -> Any:
     """What each scaling makes of a goal that is turned, and of one twice as far."""
     page, cells = columns(2, height=3.8)
     names = {
-        "advance": "advance",
-        "none": "none (default)",
+        "advance": "advance (default)",
+        "none": "none",
         "per_axis": "per axis (the source)",
         "rotation_dilation": "rotation and dilation",
     }
     plane = lift()[:, [0, 2]] + np.c_[np.zeros(201), 0.1 * TIME / TIME[-1]]
-    model = {name: dmpcpp.Dmp.fit(dmpcpp.Demonstration(TIME, plane), scaling=name) for name in names}
+    shown = dmpcpp.Demonstration(TIME, plane)
+    model = {name: dmpcpp.Dmp.fit(shown, scaling=name, scaling_guard=name != "per_axis") for name in names}
     turned = plane[-1] @ np.array([[0.5, np.sqrt(0.75)], [-np.sqrt(0.75), 0.5]])
     for axes, goal, title in zip(cells, (turned, 2 * plane[-1]), ("turned by 60°", "twice as far"), strict=True):
         axes.plot(*plane[::8].T, "o", color=ORANGE, markersize=3.6, label="demonstrated")

@@ -43,7 +43,7 @@ TEST_CASE(
     "orientations and poses that are not alike are refused with the option that differs, or none at all") {
   const PoseDemonstration demonstration = pose(100, 1.0);
   DmpOptions other;
-  other.regression = Regression::lwr;
+  other.alpha_x = 3.0;
   const auto turn = [&](const DmpOptions& options) {
     return OrientationDmp::fit(demonstration.orientation(), options);
   };
@@ -55,4 +55,25 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(average(std::vector<OrientationDmp>{}), doctest::Contains("models: none"),
                        InvalidArgument);
   CHECK_THROWS_WITH_AS(average(std::vector<PoseDmp>{}), doctest::Contains("models: none"), InvalidArgument);
+}
+
+TEST_CASE("how the weights were found, and in which kernels, may differ: the mean has those of the finest") {
+  const Demonstration a = helix(300, 2.0, .1, .2, 1.5);
+  DmpOptions coarse = stated();
+  coarse.basis_count = 60;
+  DmpOptions fine = stated();
+  fine.regression = Regression::ridge;
+  fine.derivatives = Derivatives::smooth;
+  const Dmp one = Dmp::fit(a, coarse);
+  const Dmp other = Dmp::fit(a, fine);
+  for (const Dmp& mean : {average(std::vector<Dmp>{one, other}), average(std::vector<Dmp>{other, one})}) {
+    CHECK(mean.options().basis_count == 100);
+    CHECK(mean.options().overlap == other.options().overlap);
+    const RowMatrix middle = .5 * (one.rollout({}, {}, .01).position + other.rollout({}, {}, .01).position);
+    CHECK(largest(mean.rollout({}, {}, .01).position, middle) < 1e-6);
+    const Eigen::VectorXd aside = a.position().row(299).transpose() + Eigen::Vector3d(.05, .05, 0);
+    const RowMatrix led =
+        .5 * (one.rollout(aside, {}, .01).position + other.rollout(aside, {}, .01).position);
+    CHECK(largest(mean.rollout(aside, {}, .01).position, led) < 1e-4);
+  }
 }

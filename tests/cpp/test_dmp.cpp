@@ -58,12 +58,13 @@ TEST_CASE("one kernel has a closed form through phase, forcing term and spring")
   CHECK(after(dmp, 1.) == doctest::Approx(1.2274270640230787).epsilon(1e-8));
 }
 
-TEST_CASE("a rollout has floor(duration / dt + 1e-6) + 1 samples from 0 on") {
+TEST_CASE("a rollout has samples at 0, dt, .. and at its duration") {
   const Dmp dmp = spring(0, 1, 1);
   CHECK(dmp.rollout({}, {}, .1).time.size() == 11);
-  CHECK(dmp.rollout({}, {}, .3).time.size() == 4);
+  CHECK(dmp.rollout({}, {}, .3).time.size() == 5);
   CHECK(dmp.rollout({}, 2.0, 1e-3).time.size() == 2001);
   CHECK(dmp.rollout({}, {}, .3).time[3] == doctest::Approx(.9));
+  CHECK(dmp.rollout({}, {}, .3).time[4] == 1.0);
 }
 
 TEST_CASE("100 kernels reproduce the helix and the reach; ridge regression a hundred times closer") {
@@ -229,6 +230,7 @@ TEST_CASE("a closed loop whose goal moves keeps its size, unless (g - y0) scales
   }
   DmpOptions source;
   source.scaling = Scaling::per_axis;
+  source.scaling_guard = false;
   CHECK_THROWS_AS(Dmp::fit(Demonstration(t, RowMatrix(y.col(0))), source), InvalidArgument);
 }
 

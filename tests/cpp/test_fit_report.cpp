@@ -111,16 +111,21 @@ TEST_CASE("the condition tells how the kernels overlap") {
 
 TEST_CASE(
     "a motion that ends near its start is learned under (goal - start) scaling with a warning, at its start "
-    "not at all") {
+    "not without a guard") {
   const Eigen::VectorXd t = grid(200, 1.0);
   DmpOptions options;
   options.scaling = Scaling::per_axis;
   const auto loop = [&](double gap) {
     return Demonstration(t, RowMatrix((2 * M_PI * t).array().sin() + gap * t.array()));
   };
-  const FitReport near = assess(Dmp::fit(loop(1e-4), options), {loop(1e-4)});
-  CHECK(near.warnings.back().find("scaling: axis 0") == 0);
-  CHECK(assess(Dmp::fit(loop(.5), options), {loop(.5)}).warnings.empty());
+  for (const bool guarded : {true, false}) {
+    options.scaling_guard = guarded;
+    const FitReport near = assess(Dmp::fit(loop(1e-4), options), {loop(1e-4)});
+    REQUIRE(near.warnings.size() == 1);
+    CHECK(near.warnings.back().find("scaling: axis 0") == 0);
+    CHECK((near.warnings.back().find("advances") != std::string::npos) == guarded);
+    CHECK(assess(Dmp::fit(loop(1.0), options), {loop(1.0)}).warnings.empty());
+  }
   CHECK_THROWS_AS(Dmp::fit(loop(0.0), options), InvalidArgument);
 }
 

@@ -28,6 +28,7 @@ const std::vector<std::function<void(DmpOptions&)>> kChanges{
     [](DmpOptions& o) { o.passes = 3; },
     [](DmpOptions& o) { o.ridge = 1e-9; },
     [](DmpOptions& o) { o.scaling = Scaling::per_axis; },
+    [](DmpOptions& o) { o.scaling_guard = false; },
     [](DmpOptions& o) { o.orientation_form = OrientationForm::ude; },
     [](DmpOptions& o) { o.log_branch = LogBranch::principal; },
     [](DmpOptions& o) { o.derivatives = Derivatives::smooth; },
@@ -100,7 +101,7 @@ TEST_CASE("validate names the field that is out of range") {
 TEST_CASE("every option has a name of its own, and so has every value of an enumeration") {
   std::vector<std::string> names;
   std::apply([&](const auto&... field) { (names.push_back(field.first), ...); }, DmpOptions::fields());
-  CHECK(names.size() == 21);
+  CHECK(names.size() == 22);
   std::sort(names.begin(), names.end());
   CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
   const auto complete = [](auto last) {

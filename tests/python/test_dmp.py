@@ -46,12 +46,15 @@ def test_positions_and_orientations_and_both_as_matrices_come_back():
 def test_the_equation_of_motion_is_the_documented_one():
     """scipy integrates tau zd = alpha (beta (g - y) - z) + f, tau yd = z from the model's public numbers."""
     model = Dmp.fit(helix(), basis_count=40, alpha=20.0, beta=4.0)
+    advance = model.parameters.advance
     tau, alpha, beta = 1.7, 20.0, 4.0
-    goal = model.goal + [0.3, -0.2, 5.0]
+    away = np.array([0.3, -0.2, 5.0])
+    goal = model.goal + away
 
     def rate(t, state):
         y, z = state[:3], state[3:]
-        force = model.forcing([t / tau])[0]
+        psi = model.activations([t / tau], normalised=True)[0]
+        force = model.forcing([t / tau])[0] + np.exp(-np.log(100) * t / tau) * (psi @ advance) * away
         return np.r_[z, alpha * (beta * (goal - y) - z) + force] / tau
 
     start = model.rollout_at([0.0])

@@ -60,7 +60,7 @@ def test_poses_spread_in_six_dimensions():
 
 
 def test_models_that_differ_are_not_averaged():
-    with pytest.raises(InvalidArgument, match=r"models\[1\]: options.basis_count is 50"):
-        dmpcpp.average([Dmp.fit(noisy(0)), Dmp.fit(noisy(0), basis_count=50)])
+    with pytest.raises(InvalidArgument, match=r"models\[1\]: options.alpha is 30"):
+        dmpcpp.average([Dmp.fit(noisy(0)), Dmp.fit(noisy(0), alpha=30.0)])
     with pytest.raises(InvalidArgument, match="demonstrations: none"):
         dmpcpp.assess(Dmp.fit(noisy(0)), [])

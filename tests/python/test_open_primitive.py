@@ -101,7 +101,8 @@ def test_the_regression_as_a_learner_gives_the_same_model(kind):
     def learner(basis, targets):
         return dmpcpp.fit_forcing(basis, targets, regression="ridge")
 
-    np.testing.assert_array_equal(MODELS[kind](learner=learner).weights, MODELS[kind]().weights)
+    own, usual = MODELS[kind](learner=learner).weights, MODELS[kind]().weights
+    np.testing.assert_allclose(own, usual, rtol=1e-5, atol=1e-6 * np.abs(usual).max())  # columns solved together round
 
 
 def test_targets_are_what_a_learner_gets():

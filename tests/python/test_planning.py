@@ -239,3 +239,32 @@ def test_nothing_executed_is_no_pass():
 
 def _motion(joints):
     return joints.time, joints.position, joints.velocity, joints.acceleration
+
+
+def test_a_plan_goes_to_a_new_goal_by_the_scaling_that_is_named_and_says_why(arm, model):
+    goal = np.array(model.goal)
+    goal[:3, 3] += 0.3 * (np.array(model.start)[:3, 3] - goal[:3, 3])
+    usual = planning.plan(model, arm, goal=goal)
+    assert usual.scaling.name == "advance" and "the model was learned" in usual.scaling.reason
+    assert usual.summary()["scaling"] == {"name": "advance", "reason": usual.scaling.reason, "notes": []}
+    stated = planning.plan(model, arm, goal=goal, scaling="none")
+    assert stated.scaling.name == "none" and stated.scaling.reason.startswith("as stated")
+    assert not np.allclose(stated.motion.pose[400], usual.motion.pose[400], atol=1e-4)
+    np.testing.assert_allclose(stated.motion.pose[-1], usual.motion.pose[-1], atol=1e-3)
+    older = model.with_scaling("none")
+    assert np.array_equal(planning.plan(older, arm, goal=goal).motion.pose, stated.motion.pose)
+    assert "scaling='advance'" in planning.plan(older, arm, goal=goal).scaling.describe()
+    with pytest.raises(InvalidArgument) as refused:
+        planning.plan(model, arm, scaling="wide")
+    assert refused.value.argument == "scaling"
+
+
+def test_a_plan_says_where_the_guard_of_a_scaling_steps_in(arm, model):
+    far = np.array(model.goal)
+    ways = far[:3, 3] - np.array(model.start)[:3, 3]
+    axis = int(np.argmax(np.abs(ways)))
+    found = planning.with_scaling(model, "per_axis_relative", far)[1]
+    far[axis, 3] += 4.0 * ways[axis]
+    farther = planning.with_scaling(model, "per_axis_relative", far)[1]
+    assert any(f"axis {axis} goes" in note for note in farther.notes)
+    assert not any("more than 4 times" in note for note in found.notes)

@@ -171,6 +171,9 @@ for kind, model in MODELS.items():
         ),
         f"{kind}.rollout": (model.rollout, {"goal": model.goal, "duration": 1.0, "dt": 0.1}),
         f"{kind}.rollout_at": (model.rollout_at, {"times": TIME, "goal": model.goal, "duration": 1.0}),
+        f"{kind}.scaling_notes": (
+            lambda goal, model=model: np.zeros(len(model.scaling_notes(goal))), {"goal": model.goal}
+        ),
         f"{kind}.forcing": (model.forcing, {"phase": TIME}),
         f"{kind}.activations": (model.activations, {"phase": TIME}),
         f"{kind}.fit": (
@@ -239,6 +242,10 @@ ENTRIES |= {
         {"times": TIME, "poses": np.stack([POSES] * 2), "grippers": np.stack([OPENING] * 2)},
     ),
     "PoseGripperDmp.with_weights": (with_weights(GRASP), {"weights": GRASP.weights}),
+    "PoseGripperDmp.scaling_notes": (
+        lambda pose, gripper: np.zeros(len(GRASP.scaling_notes((pose, gripper)))),
+        {"pose": GRASP.goal[0], "gripper": GRASP.goal[1]},
+    ),
     "PoseGripperDmp.forcing": (GRASP.forcing, {"phase": TIME}),
     "PoseGripperDmp.activations": (GRASP.activations, {"phase": TIME}),
     "PoseGripperRun.step": (lambda dt: after(dmpcpp.PoseGripperRun(GRASP), "step", dt), {"dt": 0.1}),
@@ -331,7 +338,7 @@ for name in ("__init__", "step", "set_goal", "stretch"):
     NO_NUMBERS.add(f"PoseGripperDmpSequenceRun.{name}")
 NO_NUMBERS |= {f"{kind}SequenceRun.__init__" for kind in MODELS}
 for kind in (*MODELS, "PoseGripperDmp"):
-    NO_NUMBERS |= {f"{kind}.__init__", f"{kind}.targets", f"{kind}Parameters.__init__"}
+    NO_NUMBERS |= {f"{kind}.__init__", f"{kind}.targets", f"{kind}.with_scaling", f"{kind}Parameters.__init__"}
 
 
 def place_of(run: Any) -> np.ndarray:

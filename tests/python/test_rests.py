@@ -57,6 +57,9 @@ def test_what_is_learned_begins_and_ends_with_the_motion_and_says_so():
     history = " ".join(lesson.recordings[0].history)
     assert "rests of" in history and "before and" in history and "behind the motion left out" in history
     assert lesson.model.options.basis_count <= 50 and lesson.ok
+    ((position, orientation),) = lesson.fit.ends  # as calm as the samples
+    assert 0.0 < position.start < position.start_samples and 0.0 < orientation.goal < orientation.goal_samples
+    assert lesson.summary()["fit"]["ends"][0][0]["goal"] == position.goal
     velocity = lesson.model.rollout().twist
     assert np.linalg.norm(velocity[0, :3]) < 0.05 * np.linalg.norm(velocity[:, :3], axis=1).max()
     whole = learning.teach([reach(2.0, 2.0, 1.0, sigma=5e-4)], keep_rests=True)

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace dmp {
 
 namespace detail {
 class LazyGrid;
+/// What denoising found in the samples of a demonstration, found once for it and its copies.
+template <class Demonstrated>
+struct Cleaned;
 }  // namespace detail
 
 /// Positions over time as they were recorded, in any number of dimensions, with the derivatives of the
@@ -57,6 +61,7 @@ class DMP_EXPORT Demonstration {
   RowMatrix position_;
   Spline spline_;
   Eigen::VectorXd measured_;  // empty: all
+  std::shared_ptr<detail::Cleaned<Demonstration>> cleaned_;
 };
 
 /// Orientations over time, with the angular velocities and accelerations (world frame) of the quintic spline
@@ -105,6 +110,7 @@ class DMP_EXPORT OrientationDemonstration {
   Rotations rotation_;
   Spline spline_;
   Eigen::VectorXd measured_;
+  std::shared_ptr<detail::Cleaned<OrientationDemonstration>> cleaned_;
 };
 
 /// Positions and orientations of one body, at the same times.
@@ -134,6 +140,7 @@ class DMP_EXPORT PoseDemonstration {
   PoseDemonstration(Demonstration position, OrientationDemonstration orientation);
   Demonstration position_;
   OrientationDemonstration orientation_;
+  std::shared_ptr<detail::Cleaned<PoseDemonstration>> cleaned_;
 };
 
 /// [R p; 0 1]

@@ -17,6 +17,15 @@ struct Tolerance {
   double angle = 0.0087;   ///< rad; about half a degree
 };
 
+/// Accelerations (m/s^2, rad/s^2) in the first and the last 3 % of a demonstration: the largest of the model,
+/// and the largest second difference of the samples, which hold no more.
+struct EndPeaks {
+  double start = 0.0;
+  double goal = 0.0;
+  double start_samples = 0.0;
+  double goal_samples = 0.0;
+};
+
 /// How a model reproduces demonstrations, and what was found in them. Columns: the dimensions of a position;
 /// the components of the rotation vector between the two orientations (world frame, rad); for poses three of
 /// each.
@@ -28,6 +37,8 @@ struct FitReport {
       removed;  ///< (d) root of the mean square that smoothing took out; 0 unless it was asked for
   /// What each demonstration shows of noise: of its positions, of its orientations, or of both.
   std::vector<std::vector<NoiseEstimate>> evidence;
+  /// The same demonstrations and parts: whether the ends are as calm as recorded.
+  std::vector<std::vector<EndPeaks>> ends;
   double largest_log = 0.0;  ///< rad, the largest |Log(Rg R^T)| on the way; 0 for positions
   double condition = 1.0;    ///< of the regression's matrix
   int suggested_basis_count =

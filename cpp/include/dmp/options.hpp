@@ -19,7 +19,7 @@ enum class Regression { lwr, ridge, automatic };
 
 /// How the forcing term follows when start and goal change.
 enum class Scaling {
-  none,               ///< not at all: the spring alone carries the motion to the goal; the default
+  none,               ///< not at all: the spring alone carries the motion to the goal
   per_axis,           ///< (g - y0), axis by axis (Ijspeert et al. 2013)
   per_axis_relative,  ///< (g - y0) / (g - y0) of the demonstration; an axis that did not move keeps 1
   rotation_dilation,  ///< the rotation and dilation of g - y0 against the demonstration's (Ginesi et al.
@@ -28,7 +28,7 @@ enum class Scaling {
   /// rest where it rests, without going back. Linear and bounded for every start and goal.
   /// docs/formulation.md, "New starts and goals".
   advance,
-  automatic  ///< advance
+  automatic  ///< advance; the default
 };
 
 /// The equation of motion of orientations; see OrientationDmp.
@@ -126,7 +126,11 @@ struct DmpOptions {
   Regression regression = Regression::automatic;
   int passes = 10;       ///< of locally weighted regression; 1 is the textbook's
   double ridge = 1e-12;  ///< times trace / N on the diagonal
-  Scaling scaling = Scaling::none;
+  Scaling scaling = Scaling::automatic;
+  /// A scaling that multiplies gives way to `advance` where its ratio is badly conditioned: on an axis (of
+  /// rotation_dilation, a way) whose ends lie closer than a quarter of the range it covers, and for what of a
+  /// new way is beyond 4 times the demonstrated one. Primitive::scaling_notes says where.
+  bool scaling_guard = true;
   OrientationForm orientation_form = OrientationForm::automatic;
   LogBranch log_branch = LogBranch::lifted;
   Derivatives derivatives = Derivatives::automatic;
@@ -163,6 +167,7 @@ struct DmpOptions {
         std::pair("kernels", &O::kernels), std::pair("overlap", &O::overlap),
         std::pair("regression", &O::regression), std::pair("passes", &O::passes),
         std::pair("ridge", &O::ridge), std::pair("scaling", &O::scaling),
+        std::pair("scaling_guard", &O::scaling_guard),
         std::pair("orientation_form", &O::orientation_form), std::pair("log_branch", &O::log_branch),
         std::pair("derivatives", &O::derivatives), std::pair("start", &O::start),
         std::pair("integrator", &O::integrator), std::pair("force_after_end", &O::force_after_end),

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dmp {
@@ -66,6 +67,14 @@ class DMP_EXPORT Primitive {
   explicit Primitive(const Parameters& parameters);
   /// The same model with other weights (N x d). Throws InvalidArgument as above.
   Primitive with_weights(const RowMatrix& weights) const;
+  /// The same motion, led to new starts and goals by another scaling; automatic is advance. Between its own
+  /// start and goal it does what it did, but for rounding and, of a model without an advance, what the kernels
+  /// leave of one. Of several demonstrations that were learned together it is the mean that is scaled. Throws
+  /// InvalidArgument for a scaling that the form of orientations does not bear.
+  Primitive with_scaling(Scaling scaling) const;
+  /// Where the guard of the scaling steps in on the way from the demonstrated start to `goal`, a line for each
+  /// axis; see DmpOptions::scaling_guard. Empty where it does not, and for scalings that need none.
+  std::vector<std::string> scaling_notes(const Point& goal) const;
 
   const Parameters& parameters() const noexcept;
   const ForcingTerm& forcing() const noexcept;
@@ -78,11 +87,11 @@ class DMP_EXPORT Primitive {
   Eigen::Index dimension() const noexcept;  ///< d, axes of the motion: columns of the weights
 
   /// The motion from the demonstrated start to `goal` (the demonstrated one unless given) within `duration`
-  /// (s; the demonstrated one unless given), at 0, dt, ... up to the duration: floor(duration / dt + 1e-6) +
-  /// 1 samples. Throws InvalidArgument for a wrong size, a number that is not finite or not positive, more
-  /// than 10^7 samples, or a motion that does not stay finite. It passes `vias`, in the order of their
-  /// phases; throws InvalidArgument, naming the via-point, for phases, points, velocities or reaches out of
-  /// range.
+  /// (s; the demonstrated one unless given), at 0, dt, ... and the duration: where dt does not divide it, the
+  /// last step is shorter. Throws InvalidArgument for a wrong size, a number that is not finite or not
+  /// positive, more than 10^7 samples, or a motion that does not stay finite. It passes `vias`, in the order
+  /// of their phases; throws InvalidArgument, naming the via-point, for phases, points, velocities or reaches
+  /// out of range.
   Trajectory rollout(const std::optional<Point>& goal = {}, std::optional<double> duration = {},
                      double dt = 1e-3, const std::vector<Via<Space>>& vias = {}) const;
   /// The same at times (T) in s, increasing from 0 or later.

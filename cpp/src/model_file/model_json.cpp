@@ -41,6 +41,7 @@ constexpr const char* kind_of<PoseGripperDmpSequence> = "pose_gripper_dmp_sequen
 constexpr int kFieldsThatMayBeEmpty = 2;
 constexpr int kSequences = 3;  // and rhythmic motions
 constexpr int kNewest = kSequences;
+constexpr const char* kGuard = "scaling_guard";
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
 constexpr std::size_t kMostObjects = 100;  // after each the parser looks through all that its parent holds
@@ -52,6 +53,7 @@ Json to_json(const Primitive<Space>& model) {
   Json options = Json::object();
   const JsonWriter write(options);
   visit_options(write, parameters.options);
+  if (!parameters.options.scaling_guard) options.erase(kGuard);  // so that older versions can read it
   const Motion motion = parameters.options.motion;
   if (motion == Motion::rhythmic) write("motion", motion, names_of(motion));
   Json json{{"format", "dmpcpp"},
@@ -119,7 +121,9 @@ auto within(const std::string& where, const Read& read) {
 template <class Space>
 Primitive<Space> read(const Json& json, Primitive<Space>*) {
   typename Space::Parameters parameters;
-  visit_options(JsonReader(member(json, "options", "model"), "options", "options."), parameters.options);
+  Json known = member(json, "options", "model");
+  if (known.is_object() && !known.contains(kGuard)) known[kGuard] = false;
+  visit_options(JsonReader(known, "options", "options."), parameters.options);
   Motion& motion = parameters.options.motion;
   if (const Json& options = json["options"]; options.contains("motion"))
     JsonReader(options, "options", "options.")("motion", motion, names_of(motion));

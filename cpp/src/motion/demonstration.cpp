@@ -3,14 +3,31 @@
 #include <dmp/so3.hpp>
 
 #include <cmath>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 #include "base/text.hpp"
 #include "motion/continuous_quaternions.hpp"
 #include "spline/denoising.hpp"
 
 namespace dmp {
+
+namespace detail {
+
+template <class Demonstrated>
+struct Cleaned {
+  std::once_flag once;
+  std::optional<Demonstrated> motion;  // where there is noise
+  NoiseEstimate first;
+  NoiseEstimate second;  // of the orientations of poses
+};
+
+}  // namespace detail
+
 namespace {
 
+using detail::Cleaned;
 using detail::continuous_quaternions;
 using detail::indexed;
 using detail::number;
@@ -112,6 +129,19 @@ void require_measured(const Eigen::VectorXd& measured, Index count) {
                             ", expected 1 for a sample that was measured, 0 for one that was filled in.");
 }
 
+/// The motion that `clean` makes of `given`, made at the first call.
+template <class Demonstrated, class Clean>
+Demonstrated once(Cleaned<Demonstrated>& memory, const Demonstrated& given, NoiseEstimate* first,
+                  NoiseEstimate* second, Clean clean) {
+  std::call_once(memory.once, [&] {
+    Demonstrated motion = clean(memory);
+    if (memory.first.found() || memory.second.found()) memory.motion = std::move(motion);
+  });
+  if (first) *first = memory.first;
+  if (second) *second = memory.second;
+  return memory.motion.value_or(given);
+}
+
 RowMatrix positions_of(const Poses& poses) {
   RowMatrix positions(static_cast<Index>(poses.size()), 3);
   for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -165,7 +195,8 @@ Rotations rotations_of(const RowMatrix& quaternions, const std::string& order) {
 Demonstration::Demonstration(const Eigen::VectorXd& times, const RowMatrix& positions)
     : time_(from_zero(times, positions.rows(), "positions")),
       position_(checked(positions)),
-      spline_(time_, position_) {}
+      spline_(time_, position_),
+      cleaned_(std::make_shared<Cleaned<Demonstration>>()) {}
 
 Demonstration Demonstration::with(const RowMatrix& positions) const {
   require_count(positions.rows(), size(), "positions");
@@ -180,11 +211,16 @@ Trajectory Demonstration::at(const Eigen::VectorXd& times) const {
 }
 
 Demonstration::Demonstration(Eigen::VectorXd time, RowMatrix position, Spline spline)
-    : time_(std::move(time)), position_(std::move(position)), spline_(std::move(spline)) {}
+    : time_(std::move(time)),
+      position_(std::move(position)),
+      spline_(std::move(spline)),
+      cleaned_(std::make_shared<Cleaned<Demonstration>>()) {}
 
 Demonstration Demonstration::denoised(NoiseEstimate* report) const {
-  detail::LazyGrid grid(time_, detail::measured_weights(measured_, size(), repeats_in(position_)));
-  return denoised(grid, report);
+  return once(*cleaned_, *this, report, nullptr, [this](auto& found) {
+    detail::LazyGrid grid(time_, detail::measured_weights(measured_, size(), repeats_in(position_)));
+    return denoised(grid, &found.first);
+  });
 }
 
 Demonstration Demonstration::denoised(detail::LazyGrid& grid, NoiseEstimate* report) const {
@@ -202,6 +238,7 @@ Demonstration Demonstration::with_measured(const Eigen::VectorXd& measured) cons
   require_measured(measured, size());
   Demonstration copy = *this;
   copy.measured_ = measured;
+  copy.cleaned_ = std::make_shared<Cleaned<Demonstration>>();
   return copy;
 }
 
@@ -214,10 +251,14 @@ Demonstration Demonstration::smoothed(Smoothing* report) const {
 OrientationDemonstration::OrientationDemonstration(const Eigen::VectorXd& times, const Rotations& rotations)
     : time_(from_zero(times, static_cast<Index>(rotations.size()), "rotations")),
       rotation_(checked(rotations)),
-      spline_(time_, continuous_quaternions(rotation_)) {}
+      spline_(time_, continuous_quaternions(rotation_)),
+      cleaned_(std::make_shared<Cleaned<OrientationDemonstration>>()) {}
 
 OrientationDemonstration::OrientationDemonstration(Eigen::VectorXd time, Rotations rotation, Spline spline)
-    : time_(std::move(time)), rotation_(std::move(rotation)), spline_(std::move(spline)) {}
+    : time_(std::move(time)),
+      rotation_(std::move(rotation)),
+      spline_(std::move(spline)),
+      cleaned_(std::make_shared<Cleaned<OrientationDemonstration>>()) {}
 
 OrientationDemonstration OrientationDemonstration::on(const Eigen::VectorXd& time, const Spline& grid,
                                                       const Rotations& rotations, const char* what) {
@@ -232,8 +273,10 @@ OrientationDemonstration OrientationDemonstration::with(const Rotations& rotatio
 }
 
 OrientationDemonstration OrientationDemonstration::denoised(NoiseEstimate* report) const {
-  detail::LazyGrid grid(time_, detail::measured_weights(measured_, size(), repeats_in(rotation_)));
-  return denoised(grid, report);
+  return once(*cleaned_, *this, report, nullptr, [this](auto& found) {
+    detail::LazyGrid grid(time_, detail::measured_weights(measured_, size(), repeats_in(rotation_)));
+    return denoised(grid, &found.first);
+  });
 }
 
 OrientationDemonstration OrientationDemonstration::denoised(detail::LazyGrid& grid,
@@ -253,6 +296,7 @@ OrientationDemonstration OrientationDemonstration::with_measured(const Eigen::Ve
   require_measured(measured, size());
   OrientationDemonstration copy = *this;
   copy.measured_ = measured;
+  copy.cleaned_ = std::make_shared<Cleaned<OrientationDemonstration>>();
   return copy;
 }
 
@@ -308,7 +352,8 @@ OrientationTrajectory OrientationDemonstration::at(const Eigen::VectorXd& times)
 PoseDemonstration::PoseDemonstration(const Eigen::VectorXd& times, const Poses& poses)
     : position_(times, positions_at(times, poses)),
       orientation_(
-          OrientationDemonstration::on(position_.time_, position_.spline_, rotations_of(poses), "poses")) {}
+          OrientationDemonstration::on(position_.time_, position_.spline_, rotations_of(poses), "poses")),
+      cleaned_(std::make_shared<Cleaned<PoseDemonstration>>()) {}
 
 PoseDemonstration PoseDemonstration::from_quaternions(const Eigen::VectorXd& times,
                                                       const RowMatrix& positions,
@@ -325,7 +370,9 @@ PoseDemonstration PoseDemonstration::from_quaternions(const Eigen::VectorXd& tim
 }
 
 PoseDemonstration::PoseDemonstration(Demonstration position, OrientationDemonstration orientation)
-    : position_(std::move(position)), orientation_(std::move(orientation)) {}
+    : position_(std::move(position)),
+      orientation_(std::move(orientation)),
+      cleaned_(std::make_shared<Cleaned<PoseDemonstration>>()) {}
 
 PoseDemonstration PoseDemonstration::with(const Poses& poses) const {
   require_count(static_cast<Index>(poses.size()), size(), "poses");
@@ -339,11 +386,14 @@ PoseDemonstration PoseDemonstration::smoothed(Smoothing* position, Smoothing* or
 }
 
 PoseDemonstration PoseDemonstration::denoised(NoiseEstimate* position, NoiseEstimate* orientation) const {
-  const auto moved = repeats_in(position_.position_);
-  const auto turned = repeats_in(orientation_.rotation_);
-  detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, size(),
-                                                         [&](Index k) { return moved(k) && turned(k); }));
-  return {position_.denoised(grid, position), orientation_.denoised(grid, orientation)};
+  return once(*cleaned_, *this, position, orientation, [this](auto& found) {
+    const auto moved = repeats_in(position_.position_);
+    const auto turned = repeats_in(orientation_.rotation_);
+    detail::LazyGrid grid(time(), detail::measured_weights(position_.measured_, size(),
+                                                           [&](Index k) { return moved(k) && turned(k); }));
+    return PoseDemonstration(position_.denoised(grid, &found.first),
+                             orientation_.denoised(grid, &found.second));
+  });
 }
 
 PoseDemonstration PoseDemonstration::with_measured(const Eigen::VectorXd& measured) const {

@@ -2,7 +2,9 @@
 
 #include <dmp/error.hpp>
 
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,14 +37,30 @@ class OptionText {
 
 }  // namespace
 
+bool same_basis(const DmpOptions& a, const DmpOptions& b) noexcept {
+  return a.basis_count == b.basis_count && a.kernels == b.kernels && a.overlap == b.overlap;
+}
+
+RowMatrix in_basis(const RowMatrix& weights, const DmpOptions& from, const DmpOptions& to) {
+  const Eigen::Index samples = 10 * static_cast<Eigen::Index>(std::max(from.basis_count, to.basis_count)) + 1;
+  const ForcingTerm forcing(basis_of(from), weights);
+  ForcingTarget target{Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0), {}, Eigen::VectorXd::Ones(weights.cols())};
+  target.value = forcing.evaluate(target.s);
+  DmpOptions closely = to;
+  closely.regression = Regression::ridge;
+  return fit_forcing(basis_of(to), {target}, closely);
+}
+
 void require_same(const DmpOptions& first, const DmpOptions& other, std::size_t j) {
   if (first == other) return;
+  const std::set<std::string> how_learned{"basis_count", "kernels", "overlap",    "regression",
+                                          "passes",      "ridge",   "derivatives"};
   std::vector<std::pair<std::string, std::string>> expected;
   std::vector<std::pair<std::string, std::string>> came;
   visit_options(OptionText(expected), first);
   visit_options(OptionText(came), other);
   for (std::size_t k = 0; k < expected.size(); ++k)
-    if (came[k].second != expected[k].second)
+    if (came[k].second != expected[k].second && how_learned.count(came[k].first) == 0)
       throw InvalidArgument("models[" + std::to_string(j) + "]: options." + came[k].first + " is " +
                             came[k].second + ", expected " + expected[k].second +
                             " as in the first. Fit the demonstrations together.");

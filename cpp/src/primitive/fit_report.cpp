@@ -19,7 +19,7 @@ void warn_of_scaling(FitReport& report, const VectorXd& displacement, const Vect
       report.warnings.push_back(
           "scaling: axis " + std::to_string(d) + " ends " + number(displacement[d]) +
           " from its start and covers " + number(amplitude[d]) +
-          ": a new goal multiplies it by the ratio. Use Scaling::none or Scaling::per_axis_relative.");
+          ": a new goal multiplies it by the ratio. Use Scaling::advance.");
 }
 
 void warn(FitReport& report, const std::vector<Index>& sizes, const DmpOptions& options, double excess) {

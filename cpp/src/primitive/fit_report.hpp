@@ -24,10 +24,44 @@ void warn_of_scaling(FitReport& report, const Eigen::VectorXd& displacement,
 void warn(FitReport& report, const std::vector<Eigen::Index>& sizes, const DmpOptions& options,
           double excess);
 
+/// Accelerations of a run along a demonstration, and what its samples hold, at either end.
+template <class Space>
+class EndWatch {
+ public:
+  explicit EndWatch(const typename Space::Demonstration& demonstration)
+      : demonstration_(demonstration), peaks_(static_cast<std::size_t>(parts_of<Space>())) {}
+
+  void look(Eigen::Index k, const typename Space::Output& output) {
+    constexpr double kShare = 0.03;
+    const double s = demonstration_.time()[k] / demonstration_.duration();
+    if (s > kShare && s < 1.0 - kShare) return;
+    double EndPeaks::*const of_model = s <= kShare ? &EndPeaks::start : &EndPeaks::goal;
+    double EndPeaks::*const of_samples = s <= kShare ? &EndPeaks::start_samples : &EndPeaks::goal_samples;
+    std::vector<double> sizes;
+    Geometry<Space>::add_accelerations(output, sizes);
+    raise(of_model, sizes);
+    sizes.clear();
+    if (k == 0 || k + 1 == demonstration_.size()) return;
+    Geometry<Space>::add_second_differences(demonstration_, k, sizes);
+    raise(of_samples, sizes);
+  }
+  const std::vector<EndPeaks>& peaks() const noexcept { return peaks_; }
+
+ private:
+  void raise(double EndPeaks::*which, const std::vector<double>& sizes) {
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      peaks_[i].*which = std::max(peaks_[i].*which, sizes[i]);
+  }
+
+  const typename Space::Demonstration& demonstration_;
+  std::vector<EndPeaks> peaks_;
+};
+
 /// Row by row how far a run of the unchanged model is from a demonstration, with the same ends, at its
 /// samples.
 template <class Space>
-RowMatrix deviation(const Primitive<Space>& model, const typename Space::Demonstration& demonstration) {
+RowMatrix deviation(const Primitive<Space>& model, const typename Space::Demonstration& demonstration,
+                    EndWatch<Space>& watch) {
   const Ends<Space> ends = example_of<Space>(demonstration, model.options()).ends;
   Stepper<Space> run(model);
   run.set_duration(demonstration.duration());
@@ -37,6 +71,7 @@ RowMatrix deviation(const Primitive<Space>& model, const typename Space::Demonst
   for (Eigen::Index k = 0; k < demonstration.size(); ++k) {
     run.step(k > 0 ? demonstration.time()[k] - demonstration.time()[k - 1] : demonstration.time()[0]);
     Geometry<Space>::deviation(run.output(), demonstration, k, away.row(k).data());
+    watch.look(k, run.output());
   }
   return away;
 }
@@ -44,17 +79,19 @@ RowMatrix deviation(const Primitive<Space>& model, const typename Space::Demonst
 template <class Space>
 Eigen::VectorXd rmse_of(const Primitive<Space>& model,
                         const std::vector<typename Space::Demonstration>& demonstrations,
-                        Eigen::VectorXd* largest = nullptr) {
+                        FitReport* report = nullptr) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(model.dimension());
   Eigen::VectorXd most = squares;
   double count = 0.0;
   for (const auto& demonstration : demonstrations) {
-    const RowMatrix away = deviation(model, demonstration);
+    EndWatch<Space> watch(demonstration);
+    const RowMatrix away = deviation(model, demonstration, watch);
+    if (report) report->ends.push_back(watch.peaks());
     most = most.cwiseMax(away.cwiseAbs().colwise().maxCoeff().transpose());
     squares += away.colwise().squaredNorm().transpose();
     count += static_cast<double>(away.rows());
   }
-  if (largest) *largest = most;
+  if (report) report->largest = most;
   return (squares / count).cwiseSqrt();
 }
 
@@ -126,13 +163,14 @@ FitReport assess(const Primitive<Space>& model,
   detail::require_tolerance(tolerance);
   const DmpOptions& options = model.options();
   FitReport report;
-  report.rmse = detail::rmse_of(model, demonstrations, &report.largest);
+  report.rmse = detail::rmse_of(model, demonstrations, &report);
   detail::inspect_demonstrations<Space>(report, demonstrations, options);
   report.condition = regression_condition(options);
   report.suggested_basis_count = detail::suggested<Space>(options, demonstrations, tolerance);
   const auto ends = detail::Geometry<Space>::ends_of(model.parameters());
-  if (options.scaling == Scaling::per_axis)
+  if (options.scaling == Scaling::per_axis && !options.scaling_guard)
     detail::warn_of_scaling(report, ends.displacement, ends.amplitude);
+  for (std::string& note : model.scaling_notes(model.goal())) report.warnings.push_back(std::move(note));
   std::vector<Eigen::Index> sizes;
   for (const auto& demonstration : demonstrations) sizes.push_back(demonstration.size());
   detail::warn(report, sizes, options, detail::excess_of(model, report.rmse, tolerance));

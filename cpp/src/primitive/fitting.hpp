@@ -13,6 +13,7 @@
 
 #include "base/text.hpp"
 #include "primitive/forcing_fit.hpp"
+#include "primitive/forcing_scale.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/product_space.hpp"
 
@@ -96,34 +97,61 @@ Example<Space> example_of(const typename Space::Demonstration& demonstration, co
   return example;
 }
 
-/// Takes out of `values` (K x d) what an advance (K x parts, or empty), `share` of it, adds to a motion whose
-/// way differs from `way` (d).
 template <class Space>
-void take_out_advance(RowMatrix& values, double share, const RowMatrix& advance, const Ends<Space>& ends,
-                      const Eigen::VectorXd& way) {
-  if (advance.size() == 0 || ends.reference.rows() > 0) return;
-  std::vector<Eigen::Index> sizes;
-  Geometry<Space>::add_groups(ends.start, sizes);
-  Eigen::Index first = 0;
-  for (std::size_t part = 0; part < sizes.size(); first += sizes[part++])
-    values.middleCols(first, sizes[part]) -=
-        share * advance.col(static_cast<Eigen::Index>(part)) *
-        (ends.displacement - way).segment(first, sizes[part]).transpose();
+std::vector<AxisGroup> groups_of(const typename Space::Point& point) {
+  std::vector<AxisGroup> groups;
+  Geometry<Space>::add_groups(point, groups);
+  return groups;
 }
 
-/// Sets the scales of a target, group of axes by group, for a model that goes from other ends. What advances
-/// with the difference of their ways is no part of what is learned for the model's own.
+/// What a model's scaling goes by (d): its displacement; in the turning form p goes from 0 to 0.
+template <class Space>
+Eigen::VectorXd way_of(const Ends<Space>& model) {
+  Eigen::VectorXd way = model.displacement;
+  Eigen::Index first = 0;
+  for (const AxisGroup& group : groups_of<Space>(model.start)) {
+    if (group.turns && model.reference.rows() > 0) way.segment(first, group.size).setZero();
+    first += group.size;
+  }
+  return way;
+}
+
+/// Calls work(part, first, size, scale) for each group of axes, with the scale of a model.
+template <class Space, class Work>
+void for_scales(const Ends<Space>& model, const DmpOptions& options, Work work) {
+  const Eigen::VectorXd way = way_of<Space>(model);
+  Eigen::Index first = 0;
+  Eigen::Index part = 0;
+  for (const AxisGroup& group : groups_of<Space>(model.start)) {
+    work(part++, first, group.size,
+         ForcingScale(options, way.segment(first, group.size), model.amplitude.segment(first, group.size)));
+    first += group.size;
+  }
+}
+
+/// Takes out of `values` (K x d) what the advance (K x parts, or empty) of a motion of this way (d), `share`
+/// of it, adds to them in a run of the model: it is no part of the model's own.
+template <class Space>
+void take_out_advance(RowMatrix& values, double share, const RowMatrix& advance, const Eigen::VectorXd& way,
+                      const Ends<Space>& model, const DmpOptions& options) {
+  if (advance.size() == 0) return;
+  for_scales<Space>(model, options, [&](auto part, auto first, auto size, ForcingScale scale) {
+    scale.set(way.segment(first, size));
+    values.middleCols(first, size) -= share * advance.col(part) * scale.offset().transpose();
+  });
+}
+
+/// Sets the scales of a target, group of axes by group, for a model that goes from other ends.
 template <class Space>
 void apply_scaling(Example<Space>& example, const Ends<Space>& model, const DmpOptions& options) {
-  std::vector<Eigen::Index> sizes;
-  Geometry<Space>::add_groups(model.start, sizes);
-  if (options.scaling == Scaling::advance)
-    take_out_advance<Space>(example.target.value, 1.0, example.advance, example.ends, model.displacement);
+  if (advances(options))
+    take_out_advance<Space>(example.target.value, 1.0, example.advance, example.way, model, options);
   Eigen::Index first = 0;
-  for (const Eigen::Index size : sizes) {
-    apply_scaling(example.target, first, example.ends.displacement.segment(first, size),
-                  model.displacement.segment(first, size), model.amplitude.segment(first, size), options);
-    first += size;
+  for (const AxisGroup& group : groups_of<Space>(model.start)) {
+    apply_scaling(example.target, first, example.ends.displacement.segment(first, group.size),
+                  model.displacement.segment(first, group.size), model.amplitude.segment(first, group.size),
+                  options);
+    first += group.size;
   }
 }
 
@@ -149,7 +177,7 @@ LearningTask<Space> task_of(const Demonstrations<Space>& demonstrations, const D
   const Ends<Space> model = Geometry<Space>::ends_of(task.parameters);
   for (Example<Space>& example : examples) {
     apply_scaling<Space>(example, model, decided);
-    if (decided.scaling == Scaling::advance)
+    if (advances(decided))
       task.advance.push_back({example.target.s, example.advance, Eigen::VectorXd::Ones(parts_of<Space>())});
     task.targets.push_back(std::move(example.target));
   }

@@ -15,14 +15,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// (g - y0) scales only an axis that ends elsewhere than it starts, measured by the range it covers.
+/// Without a guard (g - y0) scales only an axis that ends elsewhere than it starts, measured by the range it
+/// covers.
 void require_displacement(const VectorXd& displacement, const VectorXd& amplitude) {
   for (Index d = 0; d < displacement.size(); ++d)
     if (amplitude[d] > 0.0 && std::abs(displacement[d]) < 1e-9 * amplitude[d])
       throw InvalidArgument("scaling: axis " + std::to_string(d) + " of the demonstration ends " +
                             number(displacement[d]) + " from its start and covers " + number(amplitude[d]) +
-                            ", so (goal - start) cannot scale its forcing term. Use Scaling::none or "
-                            "Scaling::per_axis_relative.");
+                            ", so (goal - start) cannot scale its forcing term. Set "
+                            "options.scaling_guard, or use Scaling::advance.");
 }
 
 }  // namespace
@@ -56,23 +57,25 @@ RowMatrix gradient(const VectorXd& t, const RowMatrix& y) {
 
 void apply_scaling(ForcingTarget& target, Index first, const VectorXd& displacement,
                    const VectorXd& reference, const VectorXd& amplitude, const DmpOptions& options) {
-  if (options.scaling == Scaling::none || options.scaling == Scaling::advance) return;
+  if (!multiplies(options.scaling)) return;
   const Index axes = displacement.size();
-  if (options.scaling == Scaling::per_axis) require_displacement(displacement, amplitude);
+  if (options.scaling == Scaling::per_axis && !options.scaling_guard)
+    require_displacement(displacement, amplitude);
+  ForcingScale scale(options, reference, amplitude);
+  scale.set(displacement);
   if (options.scaling != Scaling::rotation_dilation) {
-    ForcingScale scale(options.scaling, reference, amplitude);
-    scale.set(displacement);
     scale.apply(target.scale.segment(first, axes).data());
     return;
   }
   // target = c R f: turned back by R^T (the rotation of the inverse way), scaled by c on every axis.
-  ForcingScale back(Scaling::rotation_dilation, displacement, amplitude);
+  if (!scale.rotates() || displacement.norm() <= 1e-3 * amplitude.norm()) return;
+  DmpOptions plainly = options;
+  plainly.scaling_guard = false;
+  ForcingScale back(plainly, displacement, amplitude);
   back.set(reference);
-  if (displacement.norm() <= 1e-3 * amplitude.norm() || reference.norm() <= 1e-3 * amplitude.norm()) return;
-  const double dilation = displacement.norm() / reference.norm();
   for (Index k = 0; k < target.value.rows(); ++k) back.apply(target.value.row(k).data() + first);
-  target.value.middleCols(first, axes) *= dilation;  // back.apply divided by it
-  target.scale.segment(first, axes).setConstant(dilation);
+  target.value.middleCols(first, axes) *= displacement.norm() / reference.norm();  // back.apply divided by it
+  target.scale.segment(first, axes).setConstant(scale.dilation());
 }
 
 }  // namespace dmp::detail

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "primitive/forcing_scale.hpp"
 #include "primitive/option_fields.hpp"
 
 namespace dmp {
@@ -90,9 +91,7 @@ DmpOptions DmpOptions::resolved() const {
   DmpOptions result = motion == Motion::rhythmic ? without_ends(*this) : *this;
   if (basis_count != 0) require_whole(basis_count, 100000, "basis_count", " kernels");
   require_whole(passes, 10000, "passes", "");
-  const bool multiplies =
-      scaling != Scaling::none && scaling != Scaling::advance && scaling != Scaling::automatic;
-  if (orientation_form == OrientationForm::turning && multiplies)
+  if (orientation_form == OrientationForm::turning && detail::multiplies(scaling))
     throw InvalidArgument(
         "options.scaling: OrientationForm::turning has no way from start to goal to scale by, expected "
         "advance or none.");
@@ -131,6 +130,7 @@ DmpOptions DmpOptions::source() {
   options.regression = Regression::lwr;
   options.passes = 1;
   options.scaling = Scaling::per_axis;
+  options.scaling_guard = false;
   options.orientation_form = OrientationForm::ude;
   options.log_branch = LogBranch::principal;
   options.derivatives = Derivatives::gradient;

@@ -6,6 +6,7 @@
 
 #include "motion/continuous_quaternions.hpp"
 #include "primitive/cycle.hpp"
+#include "primitive/forcing_scale.hpp"
 #include "primitive/learning.hpp"
 #include "primitive/space.hpp"
 #include "primitive/turning_reference.hpp"
@@ -52,8 +53,8 @@ Decision decide_automatically(const DmpOptions& options, const Demonstrations<Ro
                               bool may_turn) {
   Decision decision{options, {}};
   const double largest = largest_log_of(together, options);
-  const bool multiplied = options.scaling != Scaling::none && options.scaling != Scaling::advance;
-  const bool can_turn = may_turn && options.log_branch == LogBranch::lifted && !multiplied;
+  const bool can_turn =
+      may_turn && options.log_branch == LogBranch::lifted && !multiplies(options.scaling);
   std::optional<TurningReference> reference;
   if (can_turn && largest > kNear) reference = reference_along(together);
   if (reference) decision.reference = reference->coefficients();

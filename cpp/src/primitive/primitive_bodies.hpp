@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,21 +13,26 @@
 #include "primitive/fitting.hpp"
 #include "primitive/forcing_fit.hpp"
 #include "primitive/parameters.hpp"
+#include "primitive/rescaling.hpp"
 #include "primitive/rollout.hpp"
 
 namespace dmp {
 
 namespace detail {
 
-/// Scaling::automatic decided by whether there is an advance.
+/// Scaling::automatic, and whether a scaling is guarded, decided by whether there is an advance.
 template <class Space>
 void settle_advance(typename Space::Parameters& parameters) {
   Scaling& scaling = parameters.options.scaling;
   const bool given = parameters.advance.size() > 0;
   if (scaling == Scaling::automatic) scaling = given ? Scaling::advance : Scaling::none;
-  if (given && scaling != Scaling::advance)
-    throw InvalidArgument("advance: given, expected none unless options.scaling is advance.");
-  if (scaling == Scaling::advance)
+  bool& guard = parameters.options.scaling_guard;
+  guard = guard && given && multiplies(scaling);
+  const bool needed = advances(parameters.options);
+  if (given && !needed)
+    throw InvalidArgument(
+        "advance: given, expected none unless options.scaling is advance, or guarded (options.scaling_guard).");
+  if (needed)
     require_weights(parameters.advance, parameters.weights.rows(), parts_of<Space>(), "advance");
 }
 
@@ -139,6 +145,17 @@ Primitive<Space> Primitive<Space>::with_weights(const RowMatrix& weights) const 
   Parameters changed = parameters();
   changed.weights = weights;
   return Primitive(changed);
+}
+
+template <class Space>
+Primitive<Space> Primitive<Space>::with_scaling(Scaling scaling) const {
+  return detail::rescaled(*this, scaling);
+}
+
+template <class Space>
+std::vector<std::string> Primitive<Space>::scaling_notes(const Point& goal) const {
+  detail::Geometry<Space>::require(goal, start(), "goal");
+  return detail::scaling_notes(*this, goal);
 }
 
 template <class Space>

@@ -68,7 +68,10 @@ struct ProductGeometry {
     const auto second = Second::example_of(P::second(demonstration), options, reference);
     const Eigen::Index axes = first.target.value.cols();
     const Eigen::Index dimension = axes + second.target.value.cols();
-    Example<Space> both{joined<Space>(first.ends, second.ends), {}, {}};
+    Example<Space> both{joined<Space>(first.ends, second.ends), {}, {}, {}};
+    both.way.resize(first.way.size() + second.way.size());
+    both.way.head(first.way.size()) = first.way;
+    both.way.tail(second.way.size()) = second.way;
     both.target = {first.target.s, RowMatrix(first.target.value.rows(), dimension),
                    Eigen::VectorXd::Ones(dimension)};
     both.target.value << first.target.value, second.target.value;
@@ -76,9 +79,9 @@ struct ProductGeometry {
     both.advance << first.advance, second.advance;
     return both;
   }
-  static void add_groups(const Point& point, std::vector<Eigen::Index>& sizes) {
-    First::add_groups(P::first(point), sizes);
-    Second::add_groups(P::second(point), sizes);
+  static void add_groups(const Point& point, std::vector<AxisGroup>& groups) {
+    First::add_groups(P::first(point), groups);
+    Second::add_groups(P::second(point), groups);
   }
 
   static void deviation(const typename Space::Output& output, const Demonstration& demonstration,
@@ -95,6 +98,15 @@ struct ProductGeometry {
   static void add_extents(const Demonstration& demonstration, std::vector<Extent>& extents) {
     First::add_extents(P::first(demonstration), extents);
     Second::add_extents(P::second(demonstration), extents);
+  }
+  static void add_accelerations(const typename Space::Output& output, std::vector<double>& sizes) {
+    First::add_accelerations(output.first, sizes);
+    Second::add_accelerations(output.second, sizes);
+  }
+  static void add_second_differences(const Demonstration& demonstration, Eigen::Index k,
+                                     std::vector<double>& sizes) {
+    First::add_second_differences(P::first(demonstration), k, sizes);
+    Second::add_second_differences(P::second(demonstration), k, sizes);
   }
   static double largest_log(const Demonstration& demonstration, const DmpOptions& options) {
     return std::max(First::largest_log(P::first(demonstration), options),

@@ -51,6 +51,7 @@ class ProductSystem {
   }
 
   bool unscaled() const noexcept { return first_.unscaled() && second_.unscaled(); }
+  bool advances() const noexcept { return first_.advances() || second_.advances(); }
   void scale(double* forcing, const double* advance) const noexcept {
     first_.scale(forcing, advance);
     second_.scale(forcing + first_.dimension(), advance + parts_of<First>());

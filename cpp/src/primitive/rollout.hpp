@@ -20,11 +20,15 @@ namespace dmp::detail {
 /// The times at which a rollout is sampled.
 struct Timetable {
   Eigen::VectorXd times;  ///< (T) s, increasing from 0 or later
-  double dt;              ///< the step between all of them, or 0 if it is not one
-  double step(Eigen::Index k, double since) const { return k > 0 && dt > 0.0 ? dt : times[k] - since; }
+  double dt;              ///< the step between all of them but perhaps the last, or 0 if it is not one
+  bool divides = true;    ///< so that the last step is one as well
+  double step(Eigen::Index k, double since) const {
+    const bool whole = k > 0 && dt > 0.0 && (divides || k + 1 < times.size());
+    return whole ? dt : times[k] - since;
+  }
 };
 
-/// 0, dt, ... up to the duration: floor(duration / dt + 1e-6) + 1 times.
+/// 0, dt, ... and the duration, which ends a shorter step where dt does not divide it.
 inline Timetable every(double dt, double duration) {
   if (!(std::isfinite(dt) && dt > 0.0))
     throw InvalidArgument("dt: " + number(dt) + ", expected a positive time step in s.");
@@ -32,8 +36,11 @@ inline Timetable every(double dt, double duration) {
   if (!(steps < 1e7))
     throw InvalidArgument("dt: " + number(dt) + " s makes more than 10^7 samples of " + number(duration) +
                           " s. Choose a larger one.");
-  const Eigen::Index count = static_cast<Eigen::Index>(steps) + 1;
-  return {dt * Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)), dt};
+  const bool divides = steps > 0.0 && duration - steps * dt <= 1e-6 * dt;
+  const Eigen::Index count = static_cast<Eigen::Index>(steps) + (divides ? 1 : 2);
+  Timetable table{dt * Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)), dt, divides};
+  table.times[count - 1] = duration;
+  return table;
 }
 
 inline void require_duration(double duration) {
@@ -87,7 +94,7 @@ void require_via(const std::vector<Via<Space>>& vias, std::size_t j, const Primi
 
 template <class Space>
 Runner<Space> runner_of(const Primitive<Space>& model) {
-  return Runner<Space>(model.options(), model.forcing_of_run(), model.duration(),
+  return Runner<Space>(model.options(), model.forcing(), model.forcing_of_run(), model.duration(),
                        Geometry<Space>::ends_of(model.parameters()));
 }
 

@@ -99,6 +99,17 @@ RowMatrix turning_forcing(const OrientationTrajectory& motion, double tau, const
   return forcing;
 }
 
+/// The displacement of p in R = Exp(p) Q, or with no Q that of R.
+VectorXd way_in_form(const OrientationDemonstration& demonstration, const RowMatrix& errors,
+                     const RowMatrix& reference) {
+  if (reference.rows() == 0) return errors.row(0);
+  const TurningReference along(reference);
+  const auto p = [&](const Matrix3d& rotation, double s) {
+    return so3::log(Quaterniond(Quaterniond(rotation) * along.at(s).turn.conjugate()));
+  };
+  return p(demonstration.rotation().back(), 1.0) - p(demonstration.rotation().front(), 0.0);
+}
+
 RowMatrix forcing_in_form(const OrientationTrajectory& motion, const RowMatrix& errors, double tau,
                           const DmpOptions& options, const RowMatrix& reference) {
   if (options.orientation_form != OrientationForm::turning)
@@ -169,7 +180,8 @@ Example<RotationSpace> RotationGeometry::example_of(const OrientationDemonstrati
            tau * motion.angular_velocity.row(0), errors.row(0), range, reference},
           {motion.time / tau, forcing_in_form(motion, errors, tau, options, reference), Vector3d::Ones()},
           advance_along(motion.time / tau, motion.angular_velocity, way, range,
-                        {*options.orientation_alpha, *options.orientation_beta})};
+                        {*options.orientation_alpha, *options.orientation_beta}),
+          way_in_form(demonstration, errors, reference)};
 }
 
 OrientationTrajectory RotationGeometry::room_for(const VectorXd& times, const Matrix3d&) {
@@ -187,6 +199,17 @@ void RotationGeometry::deviation(RotationSpace::Output output, const Orientation
                                  Index k, double* away) {
   Vector3d::Map(away) =
       minus(output.quaternion.toRotationMatrix(), demonstration.rotation()[static_cast<std::size_t>(k)]);
+}
+
+void RotationGeometry::add_second_differences(const OrientationDemonstration& demonstration, Index k,
+                                              std::vector<double>& sizes) {
+  const VectorXd& t = demonstration.time();
+  const auto rate = [&](Index from) {
+    const auto first = static_cast<std::size_t>(from);
+    const Rotations& r = demonstration.rotation();
+    return Vector3d(minus(r[first + 1], r[first]) / (t[from + 1] - t[from]));
+  };
+  sizes.push_back(2.0 * (rate(k) - rate(k - 1)).norm() / (t[k + 1] - t[k - 1]));
 }
 
 OrientationDemonstration RotationGeometry::denoised(const OrientationDemonstration& demonstration,

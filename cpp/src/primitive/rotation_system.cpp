@@ -33,7 +33,7 @@ RotationSystem::RotationSystem(const DmpOptions& options, const Ends<RotationSpa
       form_(options.orientation_form),
       branch_(options.log_branch),
       spring_(*options.orientation_alpha, *options.orientation_beta),
-      scale_(options.scaling, ends.displacement, ends.amplitude),
+      scale_(options, ends.displacement, ends.amplitude),
       goal_(options.goal_filter, unit_quaternion(ends.goal)),
       start_(unit_quaternion(ends.start)),
       model_error_(ends.displacement),

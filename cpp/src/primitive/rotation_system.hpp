@@ -27,6 +27,7 @@ class RotationSystem {
   void start_with_goal(const Eigen::Matrix3d& goal) noexcept;
 
   bool unscaled() const noexcept { return turning_ ? turning_->unscaled() : scale_.is_one(); }
+  bool advances() const noexcept { return turning_ ? turning_->advances() : scale_.advances(); }
   void scale(double* forcing, const double* advance) const noexcept {
     if (turning_) return turning_->scale(forcing, advance);
     scale_.apply(forcing, advance);

@@ -26,23 +26,27 @@ class Runner {
  public:
   using PointArgument = typename Space::PointArgument;
 
-  /// `forcing` must outlive the runner. Behind the axes of the motion it may have a column of the advance of
-  /// each part (Scaling::advance).
-  Runner(const DmpOptions& options, const ForcingTerm& forcing, double duration, const Ends<Space>& ends)
-      : forcing_(&forcing),
+  /// Both must outlive the runner: the forcing term of the motion, and the same with, behind its axes, a
+  /// column of the advance of each part. The second is asked only while start or goal are other than the
+  /// demonstrated ones.
+  Runner(const DmpOptions& options, const ForcingTerm& own, const ForcingTerm& with_advance, double duration,
+         const Ends<Space>& ends)
+      : own_(&own),
+        with_advance_(&with_advance),
         phase_(duration, options),
         system_(options, ends),
-        nodes_(RowMatrix::Zero(3, forcing.dimension())),
-        drive_(RowMatrix::Zero(3, forcing.dimension())),
+        nodes_(RowMatrix::Zero(3, with_advance.dimension())),
+        drive_(RowMatrix::Zero(3, with_advance.dimension())),
         coupling_value_(Eigen::VectorXd::Zero(ends.z.size())),
         shift_(RowMatrix::Zero(3, ends.z.size())),
-        psi_(forcing.basis().window_capacity()),
+        psi_(own.basis().window_capacity()),
         force_after_end_(options.force_after_end || options.motion == Motion::rhythmic),
         amplitude_rate_(options.goal_filter),
         largest_step_(std::min(0.005, 0.5 / largest_rate(options))) {
     coupling_state_.point = ends.start;
     coupling_state_.goal = ends.goal;
     coupling_state_.velocity = ends.z;
+    choose_forcing();
     publish();
   }
 
@@ -70,11 +74,13 @@ class Runner {
       start_with_goal(goal);
     } else {
       system_.set_goal(goal);
+      choose_forcing();
     }
     return status_;
   }
   void start_with_goal(PointArgument goal) noexcept {
     system_.start_with_goal(goal);
+    choose_forcing();
     publish();
   }
   Status set_duration(double duration) noexcept {
@@ -104,6 +110,7 @@ class Runner {
   Status restart(PointArgument point, typename Space::TangentArgument z) noexcept {
     phase_.reset();
     system_.begin(point, z);
+    choose_forcing();
     amplitude_.fill(wanted_amplitude_);
     evaluated_at_ = kNowhere;
     return status_ = publish() ? Status::running : Status::not_finite;
@@ -122,10 +129,12 @@ class Runner {
     amplifies_ = other.amplifies_;
     plain_ = !amplifies_;
     seen_ = other.phase_.s();
+    choose_forcing();
     evaluated_at_ = kNowhere;
   }
   /// Goes on to s, as nothing changes until then; the outputs are per unit of phase.
   void look(double s) noexcept {
+    choose_forcing();
     advance_evenly(seen_, s - seen_, true);
     seen_ = s;
     publish_at(s, true, 1.0, 0.0);
@@ -177,16 +186,22 @@ class Runner {
 
   // The forcing term at the nodes of a step.
 
-  /// Whether the last node holds the forcing term at s, but for rounding.
-  bool evaluated(double s) const noexcept { return std::abs(s - evaluated_at_) < 1e-13; }
+  /// After everything that may change where the run goes: whether its forcing term needs the advance.
+  void choose_forcing() noexcept { forcing_ = system_.advances() ? with_advance_ : own_; }
+  /// Whether the last node holds the forcing term that is asked for at s, but for rounding.
+  bool evaluated(double s) const noexcept {
+    return std::abs(s - evaluated_at_) < 1e-13 && evaluated_ == forcing_;
+  }
   double* node(Node which) noexcept { return nodes_.data() + row_[which] * nodes_.cols(); }
 
   void evaluate(Node which, double s, bool on) noexcept {
+    evaluated_ = forcing_;
     if (on) return forcing_->evaluate(s, psi_.data(), node(which));
     std::fill_n(node(which), nodes_.cols(), 0.0);
   }
 
   void evaluate_way(double middle, double end, bool on) noexcept {
+    evaluated_ = forcing_;
     if (on) return forcing_->evaluate(middle, end, psi_.data(), node(kMiddle), node(kEnd));
     evaluate(kMiddle, middle, on);
     evaluate(kEnd, end, on);
@@ -264,9 +279,13 @@ class Runner {
     evaluated_at_ = on ? s + piece : kNowhere;
     if (!plain_) prepare_drive(s, piece);
     system_.advance(piece, {drive(kStart), drive(kMiddle), drive(kEnd)});
+    choose_forcing();
   }
 
-  const ForcingTerm* forcing_;
+  const ForcingTerm* own_;
+  const ForcingTerm* with_advance_;
+  const ForcingTerm* forcing_ = nullptr;    // one of the two
+  const ForcingTerm* evaluated_ = nullptr;  // which of them the nodes hold
   Phase phase_;
   System<Space> system_;
   RowMatrix nodes_;

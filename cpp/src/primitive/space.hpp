@@ -19,7 +19,14 @@ template <class Space>
 struct Example {
   Ends<Space> ends;
   ForcingTarget target;
-  RowMatrix advance = {};  ///< (K x parts)
+  RowMatrix advance = {};    ///< (K x parts)
+  Eigen::VectorXd way = {};  ///< (d) what the scaling goes by: the displacement; in the turning form that of p
+};
+
+/// Axes that are scaled together.
+struct AxisGroup {
+  Eigen::Index size;
+  bool turns;  ///< a rotation
 };
 
 /// What is decided where the options leave it open.
@@ -71,9 +78,8 @@ struct Geometry<VectorSpace> {
   static DmpOptions settle(const DmpOptions& options, const Ends<VectorSpace>&) { return options; }
   static Example<VectorSpace> example_of(const Demonstration& demonstration, const DmpOptions& options,
                                          const RowMatrix& reference);
-  /// The sizes of the groups of axes that are scaled together.
-  static void add_groups(const Point& point, std::vector<Eigen::Index>& sizes) {
-    sizes.push_back(point.size());
+  static void add_groups(const Point& point, std::vector<AxisGroup>& groups) {
+    groups.push_back({point.size(), false});
   }
 
   static Trajectory room_for(const Eigen::VectorXd& times, const Point& point);
@@ -85,6 +91,13 @@ struct Geometry<VectorSpace> {
   /// The same without its noise; appends what each part shows of noise.
   static Demonstration denoised(const Demonstration& demonstration, std::vector<NoiseEstimate>& found);
   static void add_extents(const Demonstration& demonstration, std::vector<Extent>& extents);
+  /// Appends the size of the acceleration of each part: of an output, and of the second difference of the
+  /// samples k - 1, k and k + 1.
+  static void add_accelerations(VectorSpace::Output output, std::vector<double>& sizes) {
+    sizes.push_back(output.acceleration.norm());
+  }
+  static void add_second_differences(const Demonstration& demonstration, Eigen::Index k,
+                                     std::vector<double>& sizes);
   static double largest_log(const Demonstration&, const DmpOptions&) { return 0.0; }
   /// How far the rmse goes beyond the tolerance: 1 is just within.
   static double excess(const Point&, const Eigen::VectorXd& rmse, const Tolerance& tolerance) {
@@ -118,7 +131,7 @@ struct Geometry<RotationSpace> {
   /// In the turning form without `reference` there is no target.
   static Example<RotationSpace> example_of(const OrientationDemonstration& demonstration,
                                            const DmpOptions& options, const RowMatrix& reference);
-  static void add_groups(const Point&, std::vector<Eigen::Index>& sizes) { sizes.push_back(3); }
+  static void add_groups(const Point&, std::vector<AxisGroup>& groups) { groups.push_back({3, true}); }
 
   static OrientationTrajectory room_for(const Eigen::VectorXd& times, const Point&);
   static void record(OrientationTrajectory& trajectory, Eigen::Index k, RotationSpace::Output output);
@@ -128,6 +141,11 @@ struct Geometry<RotationSpace> {
   static OrientationDemonstration denoised(const OrientationDemonstration& demonstration,
                                            std::vector<NoiseEstimate>& found);
   static void add_extents(const OrientationDemonstration& demonstration, std::vector<Extent>& extents);
+  static void add_accelerations(RotationSpace::Output output, std::vector<double>& sizes) {
+    sizes.push_back(output.angular_acceleration.norm());
+  }
+  static void add_second_differences(const OrientationDemonstration& demonstration, Eigen::Index k,
+                                     std::vector<double>& sizes);
   static double largest_log(const OrientationDemonstration& demonstration, const DmpOptions& options);
   static double excess(const Point&, const Eigen::VectorXd& rmse, const Tolerance& tolerance) {
     return rmse.norm() / tolerance.angle;

@@ -24,6 +24,7 @@ class TurningSystem {
   void set_goal(const Eigen::Quaterniond& goal) noexcept;
   void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
   bool unscaled() const noexcept { return p_.unscaled(); }
+  bool advances() const noexcept { return p_.advances(); }
   void scale(double* forcing, const double* advance) const noexcept { p_.scale(forcing, advance); }
   void set_phase(double s) noexcept { phase_ = s; }
   void advance(double step, const Nodes& drive) noexcept { p_.advance(step, drive); }

@@ -91,7 +91,7 @@ Example<VectorSpace> VectorGeometry::example_of(const Demonstration& given, cons
   const VectorXd goal = position.row(demonstration.size() - 1);
   const VectorXd range = position.colwise().maxCoeff() - position.colwise().minCoeff();
   const auto to_goal = (-motion.position).rowwise() + goal.transpose();
-  Example<VectorSpace> example{{start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}, {}};
+  Example<VectorSpace> example{{start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}, {}, goal - start};
   example.advance =
       advance_along(motion.time / tau, motion.velocity, goal - start, range, {options.alpha, *options.beta});
   example.target = {
@@ -116,6 +116,15 @@ void VectorGeometry::deviation(VectorSpace::Output output, const Demonstration& 
                                double* away) {
   Eigen::Map<Eigen::RowVectorXd>(away, demonstration.dimension()) =
       output.position.transpose() - demonstration.position().row(k);
+}
+
+void VectorGeometry::add_second_differences(const Demonstration& demonstration, Index k,
+                                            std::vector<double>& sizes) {
+  const RowMatrix& y = demonstration.position();
+  const VectorXd& t = demonstration.time();
+  const Eigen::RowVectorXd before = (y.row(k) - y.row(k - 1)) / (t[k] - t[k - 1]);
+  const Eigen::RowVectorXd after = (y.row(k + 1) - y.row(k)) / (t[k + 1] - t[k]);
+  sizes.push_back(2.0 * (after - before).norm() / (t[k + 1] - t[k - 1]));
 }
 
 Demonstration VectorGeometry::denoised(const Demonstration& demonstration,

@@ -24,7 +24,7 @@ void for_axes(Index axes, Work work) noexcept {
 VectorSystem::VectorSystem(const DmpOptions& options, const Ends<VectorSpace>& ends)
     : integrator_(options.integrator),
       spring_(options.alpha, *options.beta),
-      scale_(options.scaling, ends.displacement, ends.amplitude),
+      scale_(options, ends.displacement, ends.amplitude),
       goal_(options.goal_filter, ends.goal),
       start_(ends.start),
       y_(ends.start),

@@ -27,6 +27,8 @@ class VectorSystem {
 
   /// Whether the drive is the forcing term as it is.
   bool unscaled() const noexcept { return scale_.is_one(); }
+  /// Whether the scale asks for the forcing term of the advance.
+  bool advances() const noexcept { return scale_.advances(); }
   /// S f in place: the forcing term (d) for where this run starts and goes, with that of the advance of each
   /// part.
   void scale(double* forcing, const double* advance) const noexcept { scale_.apply(forcing, advance); }

@@ -106,6 +106,8 @@ double SmoothingKnots::residual(const RowMatrix& coefficients, const RowMatrix& 
 const SmoothingKnots::Factor& SmoothingKnots::factor(double lambda) {
   const auto known = factors_.find(lambda);
   if (known != factors_.end()) return known->second;
+  constexpr Index kMostNumbers = 8'000'000;  // in all factors that are kept: 64 MB
+  if (static_cast<Index>(factors_.size() + 1) * gram_.size() > kMostNumbers) factors_.clear();
   BandCholesky cholesky(gram_ + lambda * roughness_);
   const double freedom = cholesky.trace_of_inverse_times(gram_);
   return factors_.emplace(lambda, Factor{std::move(cholesky), freedom}).first->second;
@@ -131,6 +133,8 @@ SmoothingKnots& SmoothingGrid::knots_for(double lambda) {
   const Index every = level_for(lambda);
   const auto known = levels_.find(every);
   if (known != levels_.end()) return known->second;
+  constexpr Index kMostSamples = 2'000'000;  // in all levels that are kept: 56 bytes each
+  if (static_cast<Index>(levels_.size() + 1) * times_.size() > kMostSamples) levels_.clear();
   return levels_.try_emplace(every, times_, weights_, every).first->second;
 }
 

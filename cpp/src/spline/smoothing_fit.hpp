@@ -32,7 +32,8 @@ class SmoothingKnots {
     BandCholesky cholesky;
     double freedom;  // trace of the smoother: the degrees of freedom of the fit
   };
-  /// At a lambda; kept for other values at the same times.
+  /// At a lambda; kept for other values at the same times, unless that takes too much memory. Valid until the
+  /// next call.
   const Factor& factor(double lambda);
 
  private:
@@ -66,6 +67,7 @@ class SmoothingGrid {
   double step() const noexcept { return step_; }          ///< s, mean time between two measured samples
   /// The lambda at which half the power of a vibration at the Nyquist frequency is left.
   double unit() const noexcept { return unit_; }
+  /// Valid until the next call.
   SmoothingKnots& knots_for(double lambda);
   Eigen::Index level_for(double lambda) const;
 

@@ -650,6 +650,14 @@ class DmpOptions:
     def scaling(self, arg1: typing.Any) -> None:
         ...
     @property
+    def scaling_guard(self) -> bool:
+        """
+        a scaling that multiplies gives way to advance where its ratio is badly conditioned; see scaling_notes of a model
+        """
+    @scaling_guard.setter
+    def scaling_guard(self, arg0: bool) -> None:
+        ...
+    @property
     def start(self) -> Start:
         """
         a Start or its name
@@ -677,6 +685,30 @@ class Status(enum.Enum):
     @classmethod
     def __new__(cls, value):
         ...
+class EndPeaks:
+    """
+    Accelerations (m/s^2, rad/s^2) in the first and the last 3 % of a demonstration: the largest of the model, and the largest second difference of the samples, which hold no more.
+    """
+    @property
+    def goal(self) -> float:
+        """
+        of the model, in the last 3 %
+        """
+    @property
+    def goal_samples(self) -> float:
+        """
+        what the samples hold there
+        """
+    @property
+    def start(self) -> float:
+        """
+        of the model, in the first 3 %
+        """
+    @property
+    def start_samples(self) -> float:
+        """
+        what the samples hold there
+        """
 class FitReport:
     """
     How a model reproduces demonstrations. Columns: dimensions of a position; components of the rotation vector between the orientations; for poses three of each.
@@ -685,6 +717,11 @@ class FitReport:
     def condition(self) -> float:
         """
         of the regression's matrix
+        """
+    @property
+    def ends(self) -> list[list[EndPeaks]]:
+        """
+        the accelerations at the ends of each demonstration: a list of EndPeaks, as evidence
         """
     @property
     def evidence(self) -> list[list[NoiseEstimate]]:
@@ -1085,6 +1122,14 @@ class Dmp:
     def rollout_each(self, goals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> TrajectoryBatch:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
+        """
+    def scaling_notes(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> list[str]:
+        """
+        Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), a line for each axis; see DmpOptions.scaling_guard.
+        """
+    def with_scaling(self, scaling: typing.Any) -> Dmp:
+        """
+        The same motion, led to new starts and goals by another Scaling, or its name. Of several demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an unknown one, or one that the form of orientations does not bear.
         """
     def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Dmp:
         """
@@ -1517,6 +1562,14 @@ class OrientationDmp:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
         """
+    def scaling_notes(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> list[str]:
+        """
+        Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), a line for each axis; see DmpOptions.scaling_guard.
+        """
+    def with_scaling(self, scaling: typing.Any) -> OrientationDmp:
+        """
+        The same motion, led to new starts and goals by another Scaling, or its name. Of several demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an unknown one, or one that the form of orientations does not bear.
+        """
     def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> OrientationDmp:
         """
         The same model with other weights (N, dims).
@@ -1947,6 +2000,14 @@ class PoseDmp:
     def rollout_each(self, goals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> PoseTrajectoryBatch:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
+        """
+    def scaling_notes(self, goal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> list[str]:
+        """
+        Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), a line for each axis; see DmpOptions.scaling_guard.
+        """
+    def with_scaling(self, scaling: typing.Any) -> PoseDmp:
+        """
+        The same motion, led to new starts and goals by another Scaling, or its name. Of several demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an unknown one, or one that the form of orientations does not bear.
         """
     def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseDmp:
         """
@@ -2482,6 +2543,14 @@ class PoseGripperDmp:
     def rollout_each(self, goals: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None, durations: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, samples: typing.SupportsInt | typing.SupportsIndex = 1001, threads: typing.SupportsInt | typing.SupportsIndex = 1) -> PoseGripperTrajectoryBatch:
         """
         One motion for each of M goals (M, ...) and durations (M,) s, T = `samples` of each, evenly from 0 to its duration: the same as rollout(goal, duration, duration / (samples - 1)). Without goals, or without durations, the demonstrated one for all. threads: 0 for as many as the machine runs at once. Raises InvalidArgument, naming the motion, as rollout does.
+        """
+    def scaling_notes(self, goal: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]] | None = None) -> list[str]:
+        """
+        Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), a line for each axis; see DmpOptions.scaling_guard.
+        """
+    def with_scaling(self, scaling: typing.Any) -> PoseGripperDmp:
+        """
+        The same motion, led to new starts and goals by another Scaling, or its name. Of several demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an unknown one, or one that the form of orientations does not bear.
         """
     def with_weights(self, weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseGripperDmp:
         """

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 import click
 
-__all__ = ["Registered", "engines", "exports"]
+__all__ = ["Registered", "engines", "exports", "scaling_option"]
 
 
 class Registered(click.Choice):  # type: ignore[type-arg]
@@ -32,6 +32,23 @@ def engines(*others: str) -> Registered:
         return (*simulation.ENGINES, *others)
 
     return Registered(names)
+
+
+def scaling_option(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --scaling to a command."""
+
+    def names() -> tuple[str, ...]:
+        from dmpcpp import Scaling
+
+        return tuple(Scaling.__members__)
+
+    return click.option(
+        "--scaling",
+        default="automatic",
+        show_default=True,
+        type=Registered(names),
+        help="How the motion follows a new start and goal (automatic: as it was learned).",
+    )(command)
 
 
 def exports() -> Registered:

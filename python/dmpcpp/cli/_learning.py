@@ -19,9 +19,9 @@ from dmpcpp.cli._arm_options import (
     taken_arm,
     taken_surroundings,
 )
-from dmpcpp.cli._choices import engines
+from dmpcpp.cli._choices import engines, scaling_option
 from dmpcpp.cli._config import save_config
-from dmpcpp.cli._flags import flag
+from dmpcpp.cli._flags import as_typed, flag
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._limit_options import accept_option, names, taken_limits
 from dmpcpp.cli._numbers import numbers
@@ -238,6 +238,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
 @click.option(
     "--exact-duration", is_flag=True, help="Never extend the duration; a check fails if joint limits are exceeded."
 )
+@scaling_option
 @click.option("--from-joints", metavar="Q1,Q2,..", help="Start joints [rad] (default: searched).")
 @click.option(
     "--simulator",
@@ -263,6 +264,7 @@ def plan(
     cycles: int,
     duration: float | None,
     exact_duration: bool,
+    scaling: str,
     from_joints: str | None,
     simulator: str,
     accept: tuple[str, ...],
@@ -296,6 +298,7 @@ def plan(
         follow=arm["follow"],
         accept=names(accept),
         via=planning.at_phases(learned, map(_via, via), end) if via else (),
+        scaling=scaling,
     )
     sent = planning.write(found, out, formats)
     save_config(out / "config.toml")
@@ -317,6 +320,10 @@ def _print_plan(found: JointPlan, out: Path) -> None:
     console.print(f"arm: {arm_line(found.arm)}", soft_wrap=True, markup=False)
     if found.contacts:
         console.print(f"contacts: {found.contacts.describe()}", style="dim", soft_wrap=True, markup=False)
+    if found.scaling:
+        console.print(as_typed(found.scaling.describe()), style="dim", soft_wrap=True, markup=False)
+        for note in found.scaling.notes:
+            console.print(note, style="yellow", soft_wrap=True, markup=False)
     print_checks(console, found.checks)
     duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x the requested duration"
     how = f"{duration}; written to {out}/" + (

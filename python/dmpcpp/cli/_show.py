@@ -9,12 +9,15 @@ from typing import Any
 import click
 
 from dmpcpp.cli._arm_options import arm_options, follow_option, taken_arm
+from dmpcpp.cli._choices import scaling_option
+from dmpcpp.cli._flags import as_typed
 
 
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path), metavar="MODEL")
 @arm_options
 @follow_option
+@scaling_option
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on (0.0.0.0: every interface).")
 @click.option(
     "--port",
@@ -24,20 +27,24 @@ from dmpcpp.cli._arm_options import arm_options, follow_option, taken_arm
     help="Port; the next free one if it is taken.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the page's address as JSON.")
-def view(model: Path, host: str, port: int, as_json: bool, **arm: Any) -> None:
+def view(model: Path, scaling: str, host: str, port: int, as_json: bool, **arm: Any) -> None:
     """Show MODEL, a model file, in the browser: drag its goal and start, change time, gain and kernels.
 
     The motion, the arm's joints and how near they come to their limits follow at once. Ctrl-C ends it.
 
     Example: dmpcpp view reach/model.json --arm panda
     """
-    from dmpcpp import load
+    from dmpcpp import load, planning
     from dmpcpp.show import view as library
 
-    def ready(address: str) -> None:
-        click.echo(json.dumps({"address": address}) if as_json else f"open {address} (Ctrl-C ends it)")
+    led, chosen = planning.with_scaling(load(model), scaling)
 
-    library.serve(load(model), taken_arm(arm), follow=arm["follow"], host=host, port=port, ready=ready)
+    def ready(address: str) -> None:
+        said = {"address": address, "scaling": chosen.to_dict()}
+        lines = [as_typed(chosen.describe()), *chosen.notes, f"open {address} (Ctrl-C ends it)"]
+        click.echo(json.dumps(said) if as_json else "\n".join(lines))
+
+    library.serve(led, taken_arm(arm), follow=arm["follow"], host=host, port=port, ready=ready)
 
 
 @click.command()

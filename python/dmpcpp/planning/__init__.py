@@ -13,10 +13,12 @@ from dmpcpp.planning._cycles import Cycles
 from dmpcpp.planning._joints import Engine, Slowed, Solution, limit_factor, slowed, solve
 from dmpcpp.planning._placement import Accept, Placement
 from dmpcpp.planning._plan import JointPlan, at_phases, plan, write
+from dmpcpp.planning._scaling import ChosenScaling, with_scaling
 from dmpcpp.planning._search import place, placed
 
 __all__ = [
     "Accept",
+    "ChosenScaling",
     "ClearOfItself",
     "Cycles",
     "Engine",
@@ -38,5 +40,6 @@ __all__ = [
     "require_free_postures",
     "slowed",
     "solve",
+    "with_scaling",
     "write",
 ]

@@ -19,12 +19,13 @@ from numpy.typing import ArrayLike
 
 from dmpcpp import export, sending
 from dmpcpp._atomic import write_text
-from dmpcpp._core import Arm, JointTrajectory, Motion, PoseDmp, PoseTrajectory, Via
+from dmpcpp._core import Arm, JointTrajectory, Motion, PoseDmp, PoseTrajectory, Scaling, Via
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._clearance import LookedAt, clear_of_itself, require_free_postures
 from dmpcpp.planning._joints import Led, solve
+from dmpcpp.planning._scaling import ChosenScaling, with_scaling
 from dmpcpp.robot import (
     POSE,
     Follow,
@@ -67,6 +68,8 @@ class JointPlan(Checked):
         Poses that the motion passes.
     sent : RestToRest
         The joints with a lead-in and a lead-out: what a robot may get.
+    scaling : ChosenScaling or None
+        How the model goes to the goal, and why.
     """
 
     arm: Arm
@@ -79,6 +82,7 @@ class JointPlan(Checked):
     contacts: LookedAt | None = None
     follow: Follow = POSE
     via: tuple[Via, ...] = ()
+    scaling: ChosenScaling | None = None
 
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
@@ -95,6 +99,7 @@ class JointPlan(Checked):
             "samples": len(self.joints.time),
             "goal": self.motion.pose[-1].tolist(),
             "via": [{"phase": via.phase, "pose": np.asarray(via.point).tolist()} for via in self.via],
+            "scaling": self.scaling.to_dict() if self.scaling else None,
             "limits": limits_summary(self.arm),
             "assumed": list(assumptions(self.arm)),
         }
@@ -112,6 +117,7 @@ def plan(
     accept: Iterable[str] = (),
     follow: str | Follow | None = None,
     via: Sequence[Via] = (),
+    scaling: str | Scaling = "automatic",
 ) -> JointPlan:
     """Lead a model to a goal and find the joints for it.
 
@@ -139,6 +145,8 @@ def plan(
         than six joints needs it.
     via : sequence of Via
         Poses (4, 4) that the motion passes, in the order of their phases; see `at_phases` for places alone.
+    scaling : str or Scaling
+        How the model goes to a new goal; automatic is the scaling that it was learned with.
 
     Raises
     ------
@@ -165,6 +173,7 @@ def plan(
     for j, passed in enumerate(via):
         if np.shape(passed.point) == (4, 4):
             require_within_reach(np.asarray(passed.point)[:3, 3], arm, f"via[{j}].point")
+    model, chosen = with_scaling(model, scaling, goal)
     looked_at = require_free_postures(arm, simulator) if simulator is not None else None
     clear = clear_of_itself(arm, simulator) if simulator is not None else None
     solution = solve(
@@ -191,7 +200,7 @@ def plan(
     )
     if simulator is not None:
         checks = (*checks, *path_checks(arm, sent, simulator=simulator))
-    plain = (checks, accepted, looked_at, followed, tuple(via))
+    plain = (checks, accepted, looked_at, followed, tuple(via), chosen)
     return JointPlan(arm, solution.motion, joints, sent, solution.slowdown, *plain)
 
 
