@@ -38,6 +38,20 @@ GROUPS = {
         "log_coverage": "share of the plan that the log covers",
         "log_gap": "longest gap in the log",
     },
+    "For the robot": {
+        "robot_ready": "largest share of a limit in what a robot gets",
+        "robot_start": "robot's joints off the first sample",
+        "robot_end_velocity": "speed at the first and last sample",
+        "robot_end_acceleration": "acceleration at the first and last sample",
+        "robot_spacing": "longest step beside its neighbours",
+        "robot_joint_margin": "joint from the end of its range, least",
+        "robot_velocity": "joint speed as sent, share of its limit",
+        "robot_velocity_at_position": "joint speed where its limit depends on the joint, share of it",
+        "robot_acceleration": "joint acceleration as sent, share of its limit",
+        "robot_jerk": "joint jerk as sent, share of its limit",
+        "robot_torque": "joint torque as sent, share of its limit",
+        "robot_tool_speed": "speed of the tool as sent",
+    },
     "Contacts": {
         "self_collision": "steps at which the arm touched itself",
         "floor_contact": "steps at which the arm touched the floor",
@@ -53,7 +67,8 @@ GROUPS = {
 """Name of a check to what it asks, by group; a check that is not here stands in "Others" under its own name."""
 
 OTHERS = "Others"
-_RATIOS = ("_ratio", "inertia", "log_coverage")
+_SHARES = ("_ready", "_velocity", "_at_position", "_acceleration", "_jerk", "_torque")  # of what a robot gets
+_RATIOS = ("_ratio", "inertia", "log_coverage", *(f"robot{name}" for name in _SHARES))
 _UNITS = {"m": (1e3, "mm"), "rad": (math.degrees(1.0), "deg"), "s": (1.0, "s"), "m/s": (1.0, "m/s")}
 _STAGES = {"demonstration_to_dmp": "learning", "dmp_to_ik": "inverse kinematics", "ik_to_executed": "execution"}
 

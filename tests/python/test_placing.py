@@ -96,7 +96,7 @@ def test_a_policy_places_the_motion_and_is_told_what_the_arm_may_do():
         return found
 
     run = imitation.imitate(reaches(1), arms.find("panda"), place=policy)
-    assert run.ok and (told["samples"], told["arm"]) == (len(reaches(1)), "panda") and callable(told["accept"])
+    assert run.ok and (told["samples"], told["arm"]) == (len(run.recording), "panda") and callable(told["accept"])
     np.testing.assert_allclose(run.recording.position[0], [0.45, 0.1, 0.5], atol=1e-12)
     np.testing.assert_allclose(run.joints.position[0], told["start"], atol=1e-3)
 

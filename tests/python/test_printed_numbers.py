@@ -1,10 +1,15 @@
 """The numbers that a command prints are those of its summary, in the units that the table names."""
 
+import io
 import json
 import math
 import re
 
 import pytest
+from dmpcpp._check_words import figures_of
+from dmpcpp.checks import Check
+from dmpcpp.cli._tables import print_checks
+from rich.console import Console
 
 from tests.python.command import run, write_hand
 
@@ -55,7 +60,7 @@ def test_fit(folder):
         position, turn = report["fit"][key][:3], report["fit"][key][3:]
         assert table[row] == printed_as(*(1e3 * error for error in position), *(DEGREES * error for error in turn))
         assert max(position) > 0.0
-    checks_are_printed(table, report["checks"])
+    assert f"checks: {len(report['checks'])} of {len(report['checks'])} hold" in text
     assert f"{report['basis_count']} kernels, {report['duration']:.2f} s" in text
 
 
@@ -63,7 +68,10 @@ def test_demo(folder):
     pytest.importorskip("pybullet_data")
     text = run("demo", "--no-report", "--out", "demo", cwd=folder).stdout
     summary = json.loads((folder / "demo" / "summary.json").read_text())
-    checks_are_printed(rows(text), summary["checks"])
+    held = sum(check["result"] == "holds" for check in summary["checks"])
+    assert held and f"checks: {held} of {len(summary['checks'])} hold" in text
+    for each in figures_of(summary):
+        assert f"{each.title.lower():<19}{each.number}  ({each.line})" in text
     errors = [numbers for numbers in rows(text.split("checks")[0]).values() if len(numbers) == 4]
     assert len(errors) == len(summary["stages"]) == 3
     for numbers, stage in zip(errors, summary["stages"].values(), strict=True):
@@ -73,10 +81,12 @@ def test_demo(folder):
         )
 
 
-def checks_are_printed(table, checks):
-    """Names longer than their column are cut; their first letters are enough to know them by."""
-    judged = [check for check in checks if check["limit"] is not None and check["value"] is not None]
-    assert judged
-    for check in judged:
-        name = next(row for row in table if check["name"].startswith(row.rstrip("…")) and len(row) > 5)
-        assert table[name][:2] == pytest.approx([check["value"], check["limit"]], rel=0.02, abs=1e-9), check
+def test_a_check_that_does_not_hold_is_printed_in_the_units_of_people():
+    console = Console(width=200, record=True, file=io.StringIO())
+    failed = Check("settle_error", False, 0.0123, 1e-4, "m", 2.5, "")
+    print_checks(console, [Check("velocity_ratio", True, 0.5, 1.0, "1"), failed])
+    text = console.export_text()
+    assert "checks: 1 of 2 hold (limits 1)" in text and "velocity_ratio" not in text
+    (row,) = (line for line in text.splitlines() if "settle_error" in line)
+    cells = [cell.strip() for cell in row.split("│")[1:-1]]
+    assert cells == ["FAIL", "settle_error", "tool off the goal at the end", "12.3 mm", "0.1 mm", "2.50 s"]

@@ -148,6 +148,38 @@ ENTRIES: dict[str, Entry] = {
         {"a": POSES, "b": POSES[::2], "angle_weight": 0.2, "band": 3.0},
     ),
     "frechet": (dmpcpp.frechet, {"a": POSITION, "b": POSITION[::2]}),
+    "paced": (
+        lambda **limits: dmpcpp.paced(TRAJECTORY, arm=ARM, **limits).joints,
+        {
+            "velocity_limit": np.ones(2),
+            "acceleration_limit": np.ones(2),
+            "effort_limit": np.full(2, 50.0),
+            "jerk_limit": np.full(2, 100.0),
+            "tool_speed_limit": 2.0,
+            "tempo_rate": 3.0,
+        },
+    ),
+    "largest_demand": (
+        lambda **limits: dmpcpp.largest_demand(TRAJECTORY, arm=ARM, **limits),
+        {
+            "velocity_limit": np.ones(2),
+            "acceleration_limit": np.ones(2),
+            "effort_limit": np.full(2, 50.0),
+            "jerk_limit": np.full(2, 100.0),
+            "tool_speed_limit": 2.0,
+        },
+    ),
+    "fit_path": (
+        lambda **given: dmpcpp.fit_path(ARM, weight=np.r_[1.0, 1.0, np.zeros(4)], **given).joints,
+        {
+            "times": TIME,
+            "poses": PATH,
+            "start": JOINTS + np.outer(TIME, [0.3, 0.2]),
+            "position_tolerance": 1e-3,
+            "angle_tolerance": 1e-2,
+        },
+    ),
+    "Pace.__init__": (dmpcpp.Pace, {"time": TIME, "slowdown": np.ones(len(TIME)), "rate": np.zeros(len(TIME))}),
     "stretched": (lambda factor: dmpcpp.stretched(TRAJECTORY, factor), {"factor": 2.0}),
     "spread": (lambda count: dmpcpp.spread([DEMONSTRATIONS["Dmp"]], count), {"count": 5}),
     "assess": (
@@ -327,7 +359,8 @@ RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "start_from place": lambda run, value: run.start_from(value, velocity_of(run)),
     "start_from velocity": lambda run, value: run.start_from(place_of(run), value),
 }
-NO_NUMBERS = {"Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
+NO_NUMBERS = {"fastest_tip", "tip_motion", "retimed",
+              "Arm.from_urdf", "Arm.from_urdf_file", "DmpOptions.__init__", "DmpOptions.source", "IkOptions.__init__",
               "FollowOptions.__init__", "TrackOptions.__init__", "average", "from_json", "load", "save",
               "to_json", "PoseDemonstration.noise_estimates", "fit_forcing", "PoseGripperDmp.fit",
               "PoseGripperRun.__init__", "DmpOptions.validate",

@@ -218,7 +218,7 @@ def test_a_robot_that_may_be_moved_goes_to_the_start_and_along_the_plan(arm):
     ("robot", "problem"),
     [
         ({"ready": False}, "not ready: reflex"),
-        ({"payload": 0.73}, r"carries 0\.73 kg and the plan 0 kg.*--payload 0\.73"),
+        ({"payload": 0.73}, r"carries 0\.73 kg and the plan 0 kg.*payload of 0\.73"),
     ],
 )
 def test_a_robot_in_error_or_with_another_load_is_not_moved(arm, robot, problem):

@@ -455,12 +455,12 @@ def test_a_folder_with_a_config_that_is_none_is_refused_by_name(files):
 
 
 def test_the_joint_concerned_is_named_in_full_however_narrow_the_terminal():
-    from dmpcpp.cli._tables import checks_table
+    from dmpcpp.cli._tables import print_checks
     from dmpcpp.simulation import Check
     from rich.console import Console
 
     console = Console(width=60, record=True, file=io.StringIO())
-    console.print(checks_table([Check("acceleration_ratio", True, 0.5, 1.0, "1", 0.25, "panda_joint4")]))
+    print_checks(console, [Check("acceleration_ratio", False, 1.5, 1.0, "1", 0.25, "panda_joint4")])
     cells = [line.split("│")[-2] for line in console.export_text().splitlines() if line.count("│") > 2]
     assert "".join(cell.strip() for cell in cells).endswith("panda_joint4")
 

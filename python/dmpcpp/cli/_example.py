@@ -7,8 +7,6 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
-from dmpcpp import examples
-
 _NEXT = {
     "reach": "dmpcpp imitate reach.bvh --body RightHand --unit cm --arm panda --out reach",
     "takes": "dmpcpp fit takes/reach_1.csv takes/reach_2.csv takes/reach_3.csv --arm panda --out takes.json",
@@ -26,6 +24,8 @@ class _Name(click.types.StringParamType):
     """The name of an example; completed by the shell, checked where it is written."""
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        from dmpcpp import examples
+
         return [
             CompletionItem(name, help=example.what)
             for name, example in examples.EXAMPLES.items()
@@ -46,6 +46,8 @@ def example(name: str | None, out: Path, run: Path | None, overwrite: bool) -> N
 
     Example: dmpcpp example reach
     """
+    from dmpcpp import examples
+
     if name is None:
         for known, entry in examples.EXAMPLES.items():
             click.echo(f"{known:<9}{entry.what}: {', '.join(entry.files)}")

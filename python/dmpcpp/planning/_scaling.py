@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dmpcpp._core import PoseDmp, Scaling
+from dmpcpp._core import InvalidArgument, PoseDmp, PoseDmpSequence, Scaling
 
 __all__ = ["ChosenScaling", "with_scaling"]
 
@@ -48,13 +48,13 @@ class ChosenScaling:
 
 
 def with_scaling(
-    model: PoseDmp, scaling: str | Scaling = "automatic", goal: ArrayLike | None = None
-) -> tuple[PoseDmp, ChosenScaling]:
+    model: PoseDmp | PoseDmpSequence, scaling: str | Scaling = "automatic", goal: ArrayLike | None = None
+) -> tuple[PoseDmp | PoseDmpSequence, ChosenScaling]:
     """Return the model under a scaling; "automatic" is the one that it was learned with.
 
     Parameters
     ----------
-    model : PoseDmp
+    model : PoseDmp or PoseDmpSequence
     scaling : str or Scaling
     goal : (4, 4), optional
         Where it shall go; the demonstrated one unless given.
@@ -65,6 +65,10 @@ def with_scaling(
         An unknown scaling, one that the form of orientations does not bear, or a goal that is no pose.
     """
     automatic = scaling in ("automatic", Scaling.automatic)
+    if isinstance(model, PoseDmpSequence):
+        if not automatic:
+            raise InvalidArgument(f"scaling: {scaling} of a sequence, expected automatic: each motion has its own.")
+        return model, ChosenScaling("automatic", "of each motion its own", ())
     led = model if automatic else model.with_scaling(scaling)
     taken = led.options.scaling
     notes = led.scaling_notes(None if goal is None else np.asarray(goal, dtype=np.float64))

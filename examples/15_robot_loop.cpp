@@ -1,6 +1,6 @@
 // The loop of a robot at 1 kHz: the goal moves while the arm does, and the clock of the motion slows down as
 // far as the robot falls behind, so that it goes on where it was held up. The time of every cycle is
-// recorded. Usage: 13_robot_loop arm.urdf
+// recorded. Usage: 15_robot_loop arm.urdf
 //
 // Phase stopping: Ijspeert et al., Neural Computation 25, 2013; DmpOptions::phase_stop is its gain.
 #include <dmp/inverse_kinematics.hpp>
