@@ -107,9 +107,10 @@ void bind_options(py::module_& m) {
                      "neighbours cross at exp(-overlap / 4); ln 2 (lwr), 0.2 (ridge)")
       .def_readwrite("passes", &DmpOptions::passes, "of locally weighted regression; 1 is the textbook's")
       .def_readwrite("ridge", &DmpOptions::ridge, "times trace / N on the diagonal")
-      .def_readwrite("scaling_guard", &DmpOptions::scaling_guard,
-                     "a scaling that multiplies gives way to advance where its ratio is badly conditioned; see "
-                     "scaling_notes of a model")
+      .def_readwrite(
+          "scaling_guard", &DmpOptions::scaling_guard,
+          "a scaling that multiplies gives way to advance where its ratio is badly conditioned; see "
+          "scaling_notes of a model")
       .def_readwrite("force_after_end", &DmpOptions::force_after_end,
                      "the forcing term goes on after the duration")
       .def_readwrite("goal_filter", &DmpOptions::goal_filter,

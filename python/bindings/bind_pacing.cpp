@@ -43,17 +43,19 @@ Demand asked(const JointTrajectory& joints, const Array& velocity_limit, const A
   return arm ? largest_demand(*arm, joints, limits) : largest_demand(joints, limits);
 }
 
-/// Throws InvalidArgument unless the clock is one: times that rise, a slowdown of at least 1, all of them finite.
+/// Throws InvalidArgument unless the clock is one: times that rise, a slowdown of at least 1, all of them
+/// finite.
 Pace checked_pace(const Pace& pace) {
   const Eigen::Index count = pace.time.size();
   if (pace.slowdown.size() != count || pace.rate.size() != count)
-    throw InvalidArgument("slowdown: " + std::to_string(pace.slowdown.size()) + " and rate: " +
-                          std::to_string(pace.rate.size()) + " numbers, expected one for each of " +
-                          std::to_string(count) + " times.");
+    throw InvalidArgument("slowdown: " + std::to_string(pace.slowdown.size()) +
+                          " and rate: " + std::to_string(pace.rate.size()) +
+                          " numbers, expected one for each of " + std::to_string(count) + " times.");
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::string at = "[" + std::to_string(k) + "]: ";
     if (!std::isfinite(pace.time[k]) || (k > 0 && pace.time[k] <= pace.time[k - 1]))
-      throw InvalidArgument("time" + at + std::to_string(pace.time[k]) + ", expected finite times that rise.");
+      throw InvalidArgument("time" + at + std::to_string(pace.time[k]) +
+                            ", expected finite times that rise.");
     if (!(pace.slowdown[k] >= 1.0) || !std::isfinite(pace.slowdown[k]))
       throw InvalidArgument("slowdown" + at + std::to_string(pace.slowdown[k]) + ", expected at least 1.");
     if (!std::isfinite(pace.rate[k])) throw InvalidArgument("rate" + at + "expected a finite number.");
@@ -85,7 +87,8 @@ void bind_values(py::module_& m) {
       .def_readonly("time", &Demand::time, "s, of the sample.");
   py::class_<Pace>(m, "Pace", "A clock: when a motion that was recorded at one time is carried out.")
       .def(py::init([](const Array& time, const Array& slowdown, const Array& rate) {
-             return checked_pace({to_vector(time, "time"), to_vector(slowdown, "slowdown"), to_vector(rate, "rate")});
+             return checked_pace(
+                 {to_vector(time, "time"), to_vector(slowdown, "slowdown"), to_vector(rate, "rate")});
            }),
            py::arg("time"), py::arg("slowdown"), py::arg("rate"))
       .def_property_readonly(

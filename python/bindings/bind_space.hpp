@@ -263,7 +263,8 @@ void def_learning(py::class_<Primitive<Space>>& model) {
           },
           py::arg("scaling"),
           "The same motion, led to new starts and goals by another Scaling, or its name. Of several "
-          "demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an unknown "
+          "demonstrations learned together it is the mean that is scaled. Raises InvalidArgument for an "
+          "unknown "
           "one, or one that the form of orientations does not bear.")
       .def(
           "scaling_notes",
@@ -272,7 +273,8 @@ void def_learning(py::class_<Primitive<Space>>& model) {
             return d.scaling_notes(InPython<Space>::to_point(*goal, "goal"));
           },
           py::arg("goal") = py::none(),
-          "Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), a "
+          "Where the guard of the scaling steps in on the way to `goal` (the demonstrated one unless given), "
+          "a "
           "line for each axis; see DmpOptions.scaling_guard.");
 }
 
@@ -355,7 +357,8 @@ void def_rollout(py::class_<Primitive<Space>>& model) {
           "one "
           "unless given) within `duration` s (the demonstrated one unless given), at 0, dt, ... and the "
           "duration, the last step shorter where dt does not divide it. Raises InvalidArgument for a wrong "
-          "shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does not "
+          "shape, a number that is not finite or not positive, more than 10^7 samples, or a motion that does "
+          "not "
           "stay finite. `via`: a list of Via that it passes, in the order of their phases.")
       .def(
           "rollout_at",

@@ -161,7 +161,8 @@ TEST_CASE("the condition of the regression is had for the options as they come")
   CHECK(message_of([&] { regression_condition(narrow); }).find("overlap") != std::string::npos);
 }
 
-TEST_CASE("a model whose rotations turn along takes no scaling by (goal - start), however the form is chosen") {
+TEST_CASE(
+    "a model whose rotations turn along takes no scaling by (goal - start), however the form is chosen") {
   DmpOptions options;
   options.orientation_form = OrientationForm::turning;
   PoseDmpParameters parameters = PoseDmp::fit(pose(100, 2.0), options).parameters();

@@ -74,7 +74,8 @@ TEST_CASE("a goal up to 4 times as far is scaled as ever, to the last bit; beyon
       CHECK(guarded.scaling_notes(times * guarded.goal()).empty());
     }
     CHECK(largest(led(guarded, 3.999), led(guarded, 4.001)) < 2e-3);
-    CHECK(largest(led(guarded, 8.0), 8.0 * led(plain, 1.0)) < .05);  // straight: as the demonstration advances
+    CHECK(largest(led(guarded, 8.0), 8.0 * led(plain, 1.0)) <
+          .05);  // straight: as the demonstration advances
     CHECK(guarded.scaling_notes(8.0 * guarded.goal()).size() ==
           (scaling == Scaling::rotation_dilation ? 1 : 3));
     CHECK(guarded.scaling_notes(8.0 * guarded.goal())[0].find("more than 4 times") != std::string::npos);
@@ -120,8 +121,8 @@ TEST_CASE("a model under another scaling does what a fit with it does") {
   const VectorXd goal = demonstration.position().row(399).transpose() + Vector3d(.05, -.02, .1);
   const Dmp none = Dmp::fit(demonstration, with(Scaling::none));
   const Dmp advance = Dmp::fit(demonstration, with(Scaling::advance));
-  for (const Scaling scaling : {Scaling::none, Scaling::advance, Scaling::per_axis, Scaling::per_axis_relative,
-                                Scaling::rotation_dilation}) {
+  for (const Scaling scaling : {Scaling::none, Scaling::advance, Scaling::per_axis,
+                                Scaling::per_axis_relative, Scaling::rotation_dilation}) {
     const Dmp wanted = Dmp::fit(demonstration, with(scaling));
     for (const Dmp& from : {none, advance, Dmp::fit(demonstration, with(Scaling::per_axis))}) {
       const Dmp changed = from.with_scaling(scaling);
@@ -179,7 +180,8 @@ TEST_CASE("full turns with other ends that are learned together keep their posit
   CHECK(turned < .03);
 }
 
-TEST_CASE("files keep the guard; one that says nothing of it has none, and the source's own scaling neither") {
+TEST_CASE(
+    "files keep the guard; one that says nothing of it has none, and the source's own scaling neither") {
   const Dmp guarded = Dmp::fit(reach(100, 1.0), with(Scaling::per_axis_relative));
   const std::string text = to_json(guarded);
   CHECK(text.find("\"scaling_guard\": true") != std::string::npos);
@@ -197,7 +199,8 @@ TEST_CASE("files keep the guard; one that says nothing of it has none, and the s
   CHECK(Dmp::fit(reach(100, 1.0), DmpOptions::source()).parameters().advance.size() == 0);
 }
 
-TEST_CASE("a goal that moves while a guarded model runs makes no jump, across the limit of its ratio either") {
+TEST_CASE(
+    "a goal that moves while a guarded model runs makes no jump, across the limit of its ratio either") {
   for (const Scaling scaling : kMultiplying) {
     Run run(Dmp::fit(reach(300, 2.0), with(scaling)));
     const VectorXd goal = 6.0 * run.goal();

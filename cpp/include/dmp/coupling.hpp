@@ -21,8 +21,8 @@ struct CouplingState {
 /// 0.005 of the duration) and whose value c is added to the forcing term,
 ///   tau zd = alpha (beta (g - y) - z) + S f(s) + c
 /// (Ijspeert et al. 2013, section 2.2.3). c is an acceleration over phase: c = a / speed^2 for an
-/// acceleration a in m/s^2 or rad/s^2 (world frame). It is held over the step. A paused run does not ask it. It promises
-/// nothing: a run with a coupling may miss its goal.
+/// acceleration a in m/s^2 or rad/s^2 (world frame). It is held over the step. A paused run does not ask it.
+/// It promises nothing: a run with a coupling may miss its goal.
 ///
 /// Made from any function object f, which must outlive the call that it is passed to, be noexcept, and
 /// allocate nothing in a control loop:
@@ -45,9 +45,10 @@ class Coupling {
                   "a coupling is called in the control loop: declare its call operator noexcept");
     if constexpr (!std::is_invocable_v<const Function&, const State&, Drive&>) {
       using Value = std::decay_t<std::invoke_result_t<const Function&, const State&>>;
-      static_assert(std::is_base_of_v<Eigen::PlainObjectBase<Value>, Value>,
-                    "a coupling returns a vector, not an expression of vectors that are gone by then: state its return "
-                    "type, as in [](const State&) noexcept -> Eigen::Vector3d { .. }");
+      static_assert(
+          std::is_base_of_v<Eigen::PlainObjectBase<Value>, Value>,
+          "a coupling returns a vector, not an expression of vectors that are gone by then: state its return "
+          "type, as in [](const State&) noexcept -> Eigen::Vector3d { .. }");
     }
   }
 

@@ -30,9 +30,9 @@ struct TrackOptions {
 /// in the constructor. The same calls give the same joints to the last bit.
 class DMP_EXPORT JointTracker {
  public:
-  /// `start` (n): where the robot stands. A joint up to 1e-3 rad or m beyond a limit comes back onto it within
-  /// its velocity limit: see limit_excess(). Throws InvalidArgument if it is not n finite values within that,
-  /// for an option out of range, or for an arm of more than 16 free joints.
+  /// `start` (n): where the robot stands. A joint up to 1e-3 rad or m beyond a limit comes back onto it
+  /// within its velocity limit: see limit_excess(). Throws InvalidArgument if it is not n finite values
+  /// within that, for an option out of range, or for an arm of more than 16 free joints.
   JointTracker(Arm arm, const Eigen::VectorXd& start, const TrackOptions& options = {});
   JointTracker(const JointTracker& other);
   JointTracker(JointTracker&&) noexcept;

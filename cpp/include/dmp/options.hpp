@@ -167,12 +167,11 @@ struct DmpOptions {
         std::pair("kernels", &O::kernels), std::pair("overlap", &O::overlap),
         std::pair("regression", &O::regression), std::pair("passes", &O::passes),
         std::pair("ridge", &O::ridge), std::pair("scaling", &O::scaling),
-        std::pair("scaling_guard", &O::scaling_guard),
-        std::pair("orientation_form", &O::orientation_form), std::pair("log_branch", &O::log_branch),
-        std::pair("derivatives", &O::derivatives), std::pair("start", &O::start),
-        std::pair("integrator", &O::integrator), std::pair("force_after_end", &O::force_after_end),
-        std::pair("goal_filter", &O::goal_filter), std::pair("tempo_filter", &O::tempo_filter),
-        std::pair("phase_stop", &O::phase_stop));
+        std::pair("scaling_guard", &O::scaling_guard), std::pair("orientation_form", &O::orientation_form),
+        std::pair("log_branch", &O::log_branch), std::pair("derivatives", &O::derivatives),
+        std::pair("start", &O::start), std::pair("integrator", &O::integrator),
+        std::pair("force_after_end", &O::force_after_end), std::pair("goal_filter", &O::goal_filter),
+        std::pair("tempo_filter", &O::tempo_filter), std::pair("phase_stop", &O::phase_stop));
   }
 };
 

@@ -68,12 +68,12 @@ class DMP_EXPORT Primitive {
   /// The same model with other weights (N x d). Throws InvalidArgument as above.
   Primitive with_weights(const RowMatrix& weights) const;
   /// The same motion, led to new starts and goals by another scaling; automatic is advance. Between its own
-  /// start and goal it does what it did, but for rounding and, of a model without an advance, what the kernels
-  /// leave of one. Of several demonstrations that were learned together it is the mean that is scaled. Throws
-  /// InvalidArgument for a scaling that the form of orientations does not bear.
+  /// start and goal it does what it did, but for rounding and, of a model without an advance, what the
+  /// kernels leave of one. Of several demonstrations that were learned together it is the mean that is
+  /// scaled. Throws InvalidArgument for a scaling that the form of orientations does not bear.
   Primitive with_scaling(Scaling scaling) const;
-  /// Where the guard of the scaling steps in on the way from the demonstrated start to `goal`, a line for each
-  /// axis; see DmpOptions::scaling_guard. Empty where it does not, and for scalings that need none.
+  /// Where the guard of the scaling steps in on the way from the demonstrated start to `goal`, a line for
+  /// each axis; see DmpOptions::scaling_guard. Empty where it does not, and for scalings that need none.
   std::vector<std::string> scaling_notes(const Point& goal) const;
 
   const Parameters& parameters() const noexcept;

@@ -58,7 +58,8 @@ struct JointTracker::State {
     velocity.setZero(q.size());
   }
 
-  // Takes a joint beyond a limit back towards it, first of all that it does with a step; returns what is left.
+  // Takes a joint beyond a limit back towards it, first of all that it does with a step; returns what is
+  // left.
   detail::Joints come_back(const detail::Joints& step) {
     const detail::Joints back = beyond.cwiseMin(step).cwiseMax(-step);
     beyond -= back;

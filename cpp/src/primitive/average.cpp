@@ -44,7 +44,8 @@ bool same_basis(const DmpOptions& a, const DmpOptions& b) noexcept {
 RowMatrix in_basis(const RowMatrix& weights, const DmpOptions& from, const DmpOptions& to) {
   const Eigen::Index samples = 10 * static_cast<Eigen::Index>(std::max(from.basis_count, to.basis_count)) + 1;
   const ForcingTerm forcing(basis_of(from), weights);
-  ForcingTarget target{Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0), {}, Eigen::VectorXd::Ones(weights.cols())};
+  ForcingTarget target{
+      Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0), {}, Eigen::VectorXd::Ones(weights.cols())};
   target.value = forcing.evaluate(target.s);
   DmpOptions closely = to;
   closely.regression = Regression::ridge;

@@ -16,10 +16,9 @@ using Eigen::VectorXd;
 void warn_of_scaling(FitReport& report, const VectorXd& displacement, const VectorXd& amplitude) {
   for (Index d = 0; d < amplitude.size(); ++d)
     if (std::abs(displacement[d]) < 1e-3 * amplitude[d])
-      report.warnings.push_back(
-          "scaling: axis " + std::to_string(d) + " ends " + number(displacement[d]) +
-          " from its start and covers " + number(amplitude[d]) +
-          ": a new goal multiplies it by the ratio. Use Scaling::advance.");
+      report.warnings.push_back("scaling: axis " + std::to_string(d) + " ends " + number(displacement[d]) +
+                                " from its start and covers " + number(amplitude[d]) +
+                                ": a new goal multiplies it by the ratio. Use Scaling::advance.");
 }
 
 void warn(FitReport& report, const std::vector<Index>& sizes, const DmpOptions& options, double excess) {

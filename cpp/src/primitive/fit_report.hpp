@@ -35,8 +35,8 @@ class EndWatch {
     constexpr double kShare = 0.03;
     const double s = demonstration_.time()[k] / demonstration_.duration();
     if (s > kShare && s < 1.0 - kShare) return;
-    double EndPeaks::*const of_model = s <= kShare ? &EndPeaks::start : &EndPeaks::goal;
-    double EndPeaks::*const of_samples = s <= kShare ? &EndPeaks::start_samples : &EndPeaks::goal_samples;
+    double EndPeaks::* const of_model = s <= kShare ? &EndPeaks::start : &EndPeaks::goal;
+    double EndPeaks::* const of_samples = s <= kShare ? &EndPeaks::start_samples : &EndPeaks::goal_samples;
     std::vector<double> sizes;
     Geometry<Space>::add_accelerations(output, sizes);
     raise(of_model, sizes);
@@ -48,9 +48,8 @@ class EndWatch {
   const std::vector<EndPeaks>& peaks() const noexcept { return peaks_; }
 
  private:
-  void raise(double EndPeaks::*which, const std::vector<double>& sizes) {
-    for (std::size_t i = 0; i < sizes.size(); ++i)
-      peaks_[i].*which = std::max(peaks_[i].*which, sizes[i]);
+  void raise(double EndPeaks::* which, const std::vector<double>& sizes) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) peaks_[i].*which = std::max(peaks_[i].*which, sizes[i]);
   }
 
   const typename Space::Demonstration& demonstration_;

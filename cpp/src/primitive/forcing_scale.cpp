@@ -9,9 +9,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kRounding = 1e-14;   // of a displacement: a logarithm anew
-constexpr double kNoWay = 1e-3;       // of the range: no direction to scale by
-constexpr double kShortWay = 0.25;    // likewise: a ratio that a small change of the goal changes much
+constexpr double kRounding = 1e-14;  // of a displacement: a logarithm anew
+constexpr double kNoWay = 1e-3;      // of the range: no direction to scale by
+constexpr double kShortWay = 0.25;   // likewise: a ratio that a small change of the goal changes much
 constexpr double kLargestRatio = 4.0;
 
 /// A unit vector orthogonal to the unit vector a (Gram-Schmidt on the axis that a has least of).

@@ -8,15 +8,15 @@
 
 namespace dmp::detail {
 
-// Puts `goal` where `left` of the way from `from` to `target` is before it, and whether two points are the same: the only
-// parts of the filter that depend on the space.
+// Puts `goal` where `left` of the way from `from` to `target` is before it, and whether two points are the
+// same: the only parts of the filter that depend on the space.
 
 inline void put_on_way(Eigen::VectorXd& goal, const Eigen::VectorXd& from, const Eigen::VectorXd& target,
                        double left) noexcept {
   goal = target + left * (from - target);
 }
-inline void put_on_way(Eigen::Quaterniond& goal, const Eigen::Quaterniond& from, const Eigen::Quaterniond& target,
-                       double left) noexcept {
+inline void put_on_way(Eigen::Quaterniond& goal, const Eigen::Quaterniond& from,
+                       const Eigen::Quaterniond& target, double left) noexcept {
   const Eigen::Vector3d way = so3::log(Eigen::Quaterniond(from * target.conjugate()));
   goal = so3::exp_quaternion(left * way) * target;
 }
@@ -30,9 +30,9 @@ bool same(const Eigen::QuaternionBase<Given>& a, const Eigen::Quaterniond& b) no
   return a.coeffs() == b.coeffs();
 }
 
-/// The goal g of a motion, which approaches the one that was set, g*: tau gd = alpha_g (g* - g). The share of the way
-/// that is left is kept, and not only the goal itself, so that it arrives where that share is rounding. No allocation
-/// once constructed.
+/// The goal g of a motion, which approaches the one that was set, g*: tau gd = alpha_g (g* - g). The share of
+/// the way that is left is kept, and not only the goal itself, so that it arrives where that share is
+/// rounding. No allocation once constructed.
 template <class Point>
 class GoalFilter {
  public:

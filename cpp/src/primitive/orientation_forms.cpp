@@ -53,8 +53,7 @@ Decision decide_automatically(const DmpOptions& options, const Demonstrations<Ro
                               bool may_turn) {
   Decision decision{options, {}};
   const double largest = largest_log_of(together, options);
-  const bool can_turn =
-      may_turn && options.log_branch == LogBranch::lifted && !multiplies(options.scaling);
+  const bool can_turn = may_turn && options.log_branch == LogBranch::lifted && !multiplies(options.scaling);
   std::optional<TurningReference> reference;
   if (can_turn && largest > kNear) reference = reference_along(together);
   if (reference) decision.reference = reference->coefficients();

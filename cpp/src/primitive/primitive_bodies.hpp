@@ -31,9 +31,9 @@ void settle_advance(typename Space::Parameters& parameters) {
   const bool needed = advances(parameters.options);
   if (given && !needed)
     throw InvalidArgument(
-        "advance: given, expected none unless options.scaling is advance, or guarded (options.scaling_guard).");
-  if (needed)
-    require_weights(parameters.advance, parameters.weights.rows(), parts_of<Space>(), "advance");
+        "advance: given, expected none unless options.scaling is advance, or guarded "
+        "(options.scaling_guard).");
+  if (needed) require_weights(parameters.advance, parameters.weights.rows(), parts_of<Space>(), "advance");
 }
 
 /// What a run goes by: the weights and, behind them, those of the advance.

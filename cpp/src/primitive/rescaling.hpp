@@ -57,8 +57,8 @@ Primitive<Space> rescaled(const Primitive<Space>& model, Scaling scaling) {
   options.scaling = options.resolved().scaling;  // none of a rhythmic motion, whatever is asked for
   const Ends<Space> ends = Geometry<Space>::ends_of(parameters);
   const Eigen::VectorXd factors = own_factors<Space>(ends, model.options());
-  parameters.weights =
-      (parameters.weights * factors.asDiagonal()) * own_factors<Space>(ends, options).cwiseInverse().asDiagonal();
+  parameters.weights = (parameters.weights * factors.asDiagonal()) *
+                       own_factors<Space>(ends, options).cwiseInverse().asDiagonal();
   if (!advances(options)) {
     parameters.advance = {};
   } else if (parameters.advance.size() == 0) {

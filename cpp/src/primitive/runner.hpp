@@ -228,7 +228,8 @@ class Runner {
   /// Asks the coupling what it adds from here on.
   [[gnu::noinline]] void evaluate_coupling(double s) noexcept {
     coupling_value_.setZero();
-    if (phase_.speed() == 0.0) return;  // paused: no acceleration over phase moves it, and a / speed^2 is none
+    if (phase_.speed() == 0.0)
+      return;  // paused: no acceleration over phase moves it, and a / speed^2 is none
     system_.set_phase(s);
     coupling_state_.phase = s;
     coupling_state_.speed = phase_.speed();

@@ -19,8 +19,9 @@ template <class Space>
 struct Example {
   Ends<Space> ends;
   ForcingTarget target;
-  RowMatrix advance = {};    ///< (K x parts)
-  Eigen::VectorXd way = {};  ///< (d) what the scaling goes by: the displacement; in the turning form that of p
+  RowMatrix advance = {};  ///< (K x parts)
+  Eigen::VectorXd way =
+      {};  ///< (d) what the scaling goes by: the displacement; in the turning form that of p
 };
 
 /// Axes that are scaled together.

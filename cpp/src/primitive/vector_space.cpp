@@ -91,7 +91,8 @@ Example<VectorSpace> VectorGeometry::example_of(const Demonstration& given, cons
   const VectorXd goal = position.row(demonstration.size() - 1);
   const VectorXd range = position.colwise().maxCoeff() - position.colwise().minCoeff();
   const auto to_goal = (-motion.position).rowwise() + goal.transpose();
-  Example<VectorSpace> example{{start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}, {}, goal - start};
+  Example<VectorSpace> example{
+      {start, goal, tau * motion.velocity.row(0), goal - start, range, {}}, {}, {}, goal - start};
   example.advance =
       advance_along(motion.time / tau, motion.velocity, goal - start, range, {options.alpha, *options.beta});
   example.target = {
