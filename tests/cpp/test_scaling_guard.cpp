@@ -169,10 +169,11 @@ TEST_CASE("full turns with other ends that are learned together keep their posit
   const PoseDmp model = PoseDmp::fit(takes, with(Scaling::advance));
   REQUIRE(model.options().orientation_form == OrientationForm::turning);
   const PoseTrajectory mean = model.rollout_at(takes[1].time());
+  const Poses shown = takes[1].pose();
   double moved = 0.0;
   double turned = 0.0;
   for (std::size_t k = 0; k < mean.pose.size(); ++k) {
-    const Eigen::Matrix4d& was = takes[1].pose()[k];
+    const Eigen::Matrix4d& was = shown[k];
     moved = std::max(moved, (mean.pose[k] - was).topRightCorner<3, 1>().norm());
     turned = std::max(turned, so3::distance(mean.pose[k].topLeftCorner<3, 3>(), was.topLeftCorner<3, 3>()));
   }
