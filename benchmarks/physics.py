@@ -45,7 +45,7 @@ def nominal(name: str, engine: Engine) -> Iterator[Figure]:
         title = f"{name}, {motion}, {log.simulator}: nominal"
         yield Figure(f"{title}, RMSE", _MM * log.errors.position_rmse, 0.05, "mm")
         yield Figure(f"{title}, max", _MM * log.errors.position_max, 0.1, "mm")
-        yield Figure(f"{title}, angle max", _DEG * log.errors.angle_max, 0.015, "deg")
+        yield Figure(f"{title}, angle max", _DEG * log.errors.angle_max, 0.01, "deg")
         log = simulation.execute(arm, joints, simulator=engine)
         yield Figure(f"{title}, consistent reference, max", _MM * log.errors.position_max, 1e-3, "mm")
 

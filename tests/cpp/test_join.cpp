@@ -8,20 +8,13 @@
 #include <vector>
 
 #include "allocations.hpp"
+#include "forms.hpp"
 #include "motions.hpp"
 
 using namespace dmp;
 using namespace motions;
 
 namespace {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-DmpOptions of_form(OrientationForm form) {
-  DmpOptions options;
-  options.orientation_form = form;
-  return options;
-}
 
 PoseDemonstration moved(const PoseDemonstration& demonstration, const Eigen::Vector3d& way,
                         const Eigen::Vector3d& turn) {

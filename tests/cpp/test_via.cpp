@@ -7,6 +7,7 @@
 
 #include "allocations.hpp"
 #include "cases.hpp"
+#include "forms.hpp"
 #include "motions.hpp"
 #include "refusals.hpp"
 
@@ -14,14 +15,6 @@ using namespace dmp;
 using namespace motions;
 
 namespace {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-DmpOptions of_form(OrientationForm form) {
-  DmpOptions options;
-  options.orientation_form = form;
-  return options;
-}
 
 const std::vector<OrientationForm> kForms{OrientationForm::ude, OrientationForm::log_linear,
                                           OrientationForm::turning};

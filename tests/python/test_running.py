@@ -355,6 +355,7 @@ def test_a_plan_runs_on_the_simulated_robot_and_is_verified(folder):
         (lambda plan: (plan / "summary.json").unlink(), r"no summary\.json"),
         (lambda plan: (plan / "joints.csv").unlink(), r"no joints\.csv"),
         (lambda plan: (plan / "config.toml").unlink(), "--arm: not given"),
+        (lambda plan: (plan / "config.toml").write_text("[plan\n"), r"config\.toml: not TOML"),
     ],
 )
 def test_a_folder_that_is_no_verified_plan_is_not_run(folder, change, message):

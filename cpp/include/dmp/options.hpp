@@ -127,9 +127,9 @@ struct DmpOptions {
   int passes = 10;       ///< of locally weighted regression; 1 is the textbook's
   double ridge = 1e-12;  ///< times trace / N on the diagonal
   Scaling scaling = Scaling::automatic;
-  /// A scaling that multiplies gives way to `advance` where its ratio is badly conditioned: on an axis (of
-  /// rotation_dilation, a way) whose ends lie closer than a quarter of the range it covers, and for what of a
-  /// new way is beyond 4 times the demonstrated one. Primitive::scaling_notes says where.
+  /// Guards the scalings that multiply by a ratio: an axis (for rotation_dilation, the whole displacement)
+  /// whose ends lie closer than a quarter of its range follows `advance` instead, and ratios are held within
+  /// 4; `advance` adds what is beyond. Primitive::scaling_notes says where.
   bool scaling_guard = true;
   OrientationForm orientation_form = OrientationForm::automatic;
   LogBranch log_branch = LogBranch::lifted;

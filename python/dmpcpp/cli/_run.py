@@ -12,11 +12,12 @@ import click
 
 from dmpcpp.cli._arm_options import contact_options, follow_option, optional_arm_options, taken_arm, taken_surroundings
 from dmpcpp.cli._choices import engines
+from dmpcpp.cli._config import options_of_run
 from dmpcpp.cli._group import FAILED, INTERRUPTED, refuse_file
 from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._numbers import numbers
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE
-from dmpcpp.cli._run_folder import joints_of, options_of_folder, require_verified
+from dmpcpp.cli._run_folder import joints_of, require_verified
 from dmpcpp.cli._verification import print_verification, tolerance_option, tolerances_of
 from dmpcpp.errors import InvalidArgument
 
@@ -98,7 +99,7 @@ def run(
     require_verified(plan)
     joints = export.read_joints(joints_of(plan))
     refuse_file(folder)
-    options = options_of_folder(plan, arm)
+    options = arm | options_of_run(plan if plan.is_dir() else plan.absolute().parent, arm, same="arm")
     if options["arm"] is None:
         raise InvalidArgument("--arm: not given, and there is no config.toml beside the plan. State the arm.")
     around, chosen = taken_surroundings(options), taken_arm(options)

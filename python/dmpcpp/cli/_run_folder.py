@@ -1,17 +1,13 @@
-"""What `dmpcpp run` and `dmpcpp verify` take of a folder that `imitate` or `plan` wrote."""
+"""What `dmpcpp run` takes of a folder that `imitate` or `plan` wrote."""
 
 from __future__ import annotations
 
 import json
-import tomllib
 from pathlib import Path
-from typing import Any
-
-import click
 
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["joints_of", "options_of_folder", "require_verified"]
+__all__ = ["joints_of", "require_verified"]
 
 
 def joints_of(plan: Path) -> Path:
@@ -36,22 +32,3 @@ def require_verified(plan: Path) -> None:
     verdict = summary.get("verdict") if isinstance(summary, dict) else None
     if verdict != "pass" and not (isinstance(summary, dict) and summary.get("ok") is True):
         raise InvalidArgument(f"{folder}: its verdict is '{verdict}'; no robot gets a motion that is not verified.")
-
-
-def options_of_folder(plan: Path, options: dict[str, Any]) -> dict[str, Any]:
-    """Return options with those of the folder's config.toml where the command line states none."""
-    path = (plan if plan.is_dir() else plan.absolute().parent) / "config.toml"
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return options
-    context = click.get_current_context()
-    table = next((each for each in tables.values() if isinstance(each, dict)), {})
-    for parameter in context.command.params:
-        name = str(parameter.name)
-        keys = [flag[2:] for flag in parameter.opts if flag.startswith("--")]
-        stated = next((table[key] for key in keys if key in table), None)
-        default = context.get_parameter_source(name) == click.core.ParameterSource.DEFAULT
-        if name in options and stated is not None and default:
-            options[name] = parameter.type_cast_value(context, stated)
-    return options

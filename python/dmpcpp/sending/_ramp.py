@@ -22,7 +22,7 @@ __all__ = ["LEAD_ACCELERATION", "Ramp", "ramp"]
 LEAD_ACCELERATION = 5.0
 """rad/s^2 (m/s^2): gentle beside what arms can do (10 to 20)."""
 _LEAD_SHARE = 0.9  # of the limits of acceleration and jerk that a ramp uses at most
-_JERK_TIME = 0.05  # s in which a gentle ramp reaches the acceleration limit
+_JERK_TIME = 0.1  # s in which a gentle ramp reaches the acceleration limit: shorter ones show in tracking
 _LONGEST = 3.0  # s
 
 
