@@ -19,3 +19,12 @@ endfunction()
 function(dmp_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release,Checked>:-O0>)
 endfunction()
+
+# dmp_test_of_core(TEST EXECUTABLE): the target core_tests builds it and `ctest -L core` runs it, without the arm's library.
+function(dmp_test_of_core test executable)
+  if(NOT TARGET core_tests)
+    add_custom_target(core_tests)
+  endif()
+  add_dependencies(core_tests ${executable})
+  set_tests_properties(${test} PROPERTIES LABELS core)
+endfunction()

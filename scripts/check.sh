@@ -24,10 +24,11 @@ check_lint() {
     xargs -0 $tools/clang-format --dry-run -Werror
 }
 
-# The movement primitives alone: what continuous integration has the time for.
+# The movement primitives alone, what continuous integration has the time for: with the library of the fuzzers, whose
+# clang compiles in a third of the time since ASan finds what its UBSan leaves out (null, object-size) at run time.
 check_asan-core() {
-  cmake --preset asan -B build/asan-core -DDMP_KINEMATICS=OFF && cmake --build build/asan-core &&
-    DMP_CASES=500 ctest --test-dir build/asan-core --output-on-failure -E '^header_|^package$'
+  tools && cmake --preset fuzz && cmake --build build/fuzz --target core_tests &&
+    DMP_CASES=500 ctest --test-dir build/fuzz --output-on-failure -j "$(nproc)" -L core
 }
 
 check_mutation() { "$python" scripts/mutation.py && "$python" scripts/mutation_python.py; }

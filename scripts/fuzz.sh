@@ -17,7 +17,7 @@ TIMEFORMAT=%0U
 build() {
   [ -n "${built:-}" ] && return
   cmake --preset fuzz >/dev/null
-  cmake --build build/fuzz >build/fuzz/log 2>&1 || { cat build/fuzz/log >&2; exit 1; }
+  cmake --build build/fuzz --target fuzz_model fuzz_urdf >build/fuzz/log 2>&1 || { cat build/fuzz/log >&2; exit 1; }
   built=yes
 }
 

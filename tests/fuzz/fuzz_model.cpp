@@ -14,6 +14,11 @@ void run(const dmp::Primitive<Space>& model) {
   dmp::Stepper<Space>(model).step(1e-3 * model.duration());
 }
 
+template <class Space>
+void run(const dmp::Sequence<Space>& models) {
+  dmp::SequenceRun<Space>(models).step(1e-3 * models.duration());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
