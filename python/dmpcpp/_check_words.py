@@ -14,6 +14,8 @@ GROUPS = {
         "reproduction_angle_rmse": "orientation off the recording, RMS",
     },
     "The arm's path": {
+        "fitted_position_max": "path fitted to the arm off the learned one, largest",
+        "fitted_angle_max": "orientation fitted to the arm off the learned one, largest",
         "ik_position_residual": "inverse kinematics off the path, largest",
         "ik_angle_residual": "inverse kinematics off the orientation, largest",
         "path_self_clearance": "room between the arm's links, least",
@@ -27,6 +29,7 @@ GROUPS = {
         "torque_ratio": "joint torque, share of its limit",
         "torque_clipped": "steps at which a torque was cut to its limit",
         "tool_speed": "speed of the tool",
+        "slowdown": "duration, times the wanted one",
     },
     "Carried out": {
         "finite": "steps with numbers that are not finite",
@@ -70,7 +73,13 @@ OTHERS = "Others"
 _SHARES = ("_ready", "_velocity", "_at_position", "_acceleration", "_jerk", "_torque")  # of what a robot gets
 _RATIOS = ("_ratio", "inertia", "log_coverage", *(f"robot{name}" for name in _SHARES))
 _UNITS = {"m": (1e3, "mm"), "rad": (math.degrees(1.0), "deg"), "s": (1.0, "s"), "m/s": (1.0, "m/s")}
-_STAGES = {"demonstration_to_dmp": "learning", "dmp_to_ik": "inverse kinematics", "ik_to_executed": "execution"}
+_STAGES = {
+    "demonstration_to_dmp": "learning",
+    "dmp_to_fitted": "fitting to the arm",
+    "dmp_to_ik": "inverse kinematics",
+    "ik_to_executed": "execution",
+}
+_OF_SEVERAL = "recording_to_fitted"  # learning and fitting together, which would be counted twice
 
 
 class Figure(NamedTuple):
@@ -107,6 +116,7 @@ def figures_of(summary: Mapping[str, Any]) -> list[Figure]:
 
 
 def _closeness(stages: Mapping[str, Mapping[str, float]]) -> Figure:
+    stages = {name: stage for name, stage in stages.items() if name != _OF_SEVERAL}
     length = _short(1e3 * sum(stage["position_max"] for stage in stages.values()))
     turn = _short(math.degrees(sum(stage["angle_max"] for stage in stages.values())))
     parts = ", ".join(_STAGES.get(name, name) for name in stages)
@@ -131,6 +141,8 @@ def _changes(summary: Mapping[str, Any]) -> Figure:
     said = [*summary.get("changed", ())]
     if summary["recording"].get("evidence", {}).get("smoothed"):
         said.insert(0, "noise smoothed out")
+    if summary.get("fitted"):
+        said.append(f"fitted to the arm within {1e3 * summary['fitted']['tolerance_position']:.3g} mm")
     if summary["slowdown"] > 1.005:
         said.append("slowed for the arm's limits")
     return Figure(

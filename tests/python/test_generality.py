@@ -268,17 +268,29 @@ def test_trials_take_the_options_of_an_arm(tmp_path):
     (trial,) = [result.trial for result in generality.kept(tmp_path / "out" / "trials.jsonl")]
     assert trial.choice == {"tip": "l6", "limits": {"velocity": [2.0]}}
     around = {"floor": None, "ignored": [["base", "l2"]]}
-    assert trial.options == {"follow": "position", "dynamics": "none", "surroundings": around}
+    tempo = {"tempo": "person", "tolerance": "1mm,0.5deg"}
+    assert trial.options == {"follow": "position", "dynamics": "none", "surroundings": around, **tempo}
     done = command(*made, "--velocity", 1, "--tip", "l6", cwd=tmp_path)
     slow, fast = [result.slowdown for result in reversed(generality.kept(tmp_path / "out" / "trials.jsonl"))]
-    assert done.returncode == 0 and slow == pytest.approx(2 * fast, rel=0.2)
+    assert done.returncode == 0 and 1.2 * fast < slow <= 2.2 * fast
 
 
 def test_what_is_as_usual_is_the_same_trial_whether_stated_or_not():
     usual = {"follow": None, "dynamics": "full", "surroundings": {"floor": "auto", "ignored": []}}
     plain = generality.trials(1, ["panda"])
     assert generality.trials(1, ["panda"], choice={"base": None, "limits": {}}, options=usual) == plain
-    assert Trial("panda", "none", 0, 0).key == plain[0].key
+    assert plain[0].imitation_options()["tempo"] == "person"
+
+
+def test_trials_of_before_the_tempo_are_slowed_down_evenly():
+    before = Trial("panda", "none", 0, 0)
+    assert before.key not in {trial.key for trial in generality.trials(1, ["panda"], ["none"])}
+    assert before.imitation_options()["tempo"] == "uniform" and before.imitation_options()["tolerance"] == "0"
+
+
+def test_other_options_make_another_trial():
+    usual = {"follow": None, "dynamics": "full", "surroundings": {"floor": "auto", "ignored": []}}
+    plain = generality.trials(1, ["panda"])
     other = generality.trials(1, ["panda"], options={**usual, "dynamics": "none"})[0]
     assert other.key != plain[0].key and other.imitation_options()["dynamics"] == "none"
 

@@ -165,7 +165,7 @@ def test_velocities_of_via_points_slow_down_with_the_plan(arm, model):
     found = planning.plan(model, arm, duration=0.2, via=[Via(0.5, pose, twist)])
     assert found.slowdown > 1.5
     middle = len(found.motion.time) // 2
-    np.testing.assert_allclose(found.motion.twist[middle] * found.slowdown, twist, atol=1e-6)
+    np.testing.assert_allclose(found.motion.twist[middle] * found.tempo.pace.slowdown[middle], twist, atol=1e-6)
 
 
 def test_a_sequence_is_planned_like_a_model(arm, model):

@@ -474,16 +474,21 @@ def test_its_json_is_the_summary(files):
 
 
 def test_a_limit_that_is_not_kept_is_exit_status_3(files):
-    result = command(files.plan, files.log, "--simulator", "none", "--tolerance", "velocity_ratio=0.01")
+    result = command(files.plan, files.log, "--simulator", "none", "--check-limit", "velocity_ratio=0.01")
     assert result.exit_code == 3
     assert "not verified" in result.output and "velocity_ratio" in result.output
+
+
+def test_the_old_name_of_check_limit_works_with_a_word(files):
+    result = command(files.plan, files.log, "--simulator", "none", "--tolerance", "velocity_ratio=0.01")
+    assert result.exit_code == 3 and "--tolerance is --check-limit now" in result.output
 
 
 @pytest.mark.parametrize(
     "words, message",
     [
-        (("--tolerance", "speed=1"), "expected NAME=VALUE with a NAME of position_rmse"),
-        (("--tolerance", "position_max=x"), "expected a number after '='"),
+        (("--check-limit", "speed=1"), "expected NAME=VALUE with a NAME of position_rmse"),
+        (("--check-limit", "position_max=x"), "expected a number after '='"),
         (("--time-unit", "h"), "--time-unit: 'h', expected one of s, ms, us, ns"),
         (("--arm", "iiwa"), "expected those of the arm"),
         (("--low-pass", "-1"), "--low-pass: -1.0"),

@@ -76,8 +76,8 @@ WRONG = {
     "a batch of no folder": (("batch", "nowhere"), "nowhere", "does not exist", "expected"),
     "jobs that are none": (("batch", "empty", "--jobs", "0"), "--jobs", "0", "x>=1"),
     "a tolerance unheard of": (
-        ("verify", "a", "b", "--tolerance", "speed=1"),
-        "--tolerance",
+        ("verify", "a", "b", "--check-limit", "speed=1"),
+        "--check-limit",
         "speed=1",
         "position_max",
     ),

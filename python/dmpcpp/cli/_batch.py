@@ -26,6 +26,7 @@ from dmpcpp.cli._options import (
     taken_preparation,
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
+from dmpcpp.cli._tempo_options import taken_tempo, tempo_options
 
 if TYPE_CHECKING:
     from dmpcpp.trials.batch import Outcome
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
 )
 @accept_option
 @dynamics_option
+@tempo_options
 @click.option("--jobs", default=1, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option("--reports", is_flag=True, help="Also write each run's report.html.")
 @click.option(
@@ -109,6 +111,7 @@ def batch(
         "follow": options.pop("follow"),
         "surroundings": taken_surroundings(options).to_dict(),
         "report": reports,
+        **taken_tempo(options),
     }
     reading = taken_recording(options)
     work = library.tasks(

@@ -26,7 +26,7 @@ ALIASES = {
     "recording": "file",
     "recordings": "files",
     "robot": "address",
-    "tolerance": "stated",
+    "check_limit": "stated",
 }
 """Parameters of the library that have another name in a command."""
 

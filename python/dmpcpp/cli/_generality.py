@@ -22,6 +22,7 @@ from dmpcpp.cli._config import save_config
 from dmpcpp.cli._flags import as_typed
 from dmpcpp.cli._group import FAILED, ended_by_sigterm, refuse_file
 from dmpcpp.cli._limit_options import accept_option, dynamics_option, names
+from dmpcpp.cli._tempo_options import taken_tempo, tempo_options
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 @contact_options
 @accept_option
 @dynamics_option
+@tempo_options
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="Processes at a time.")
 @click.option(
     "--out",
@@ -76,7 +78,7 @@ def generality(
 
     refuse_file(out)
     choice, around = taken_choice(options), taken_surroundings(options)
-    how = {"follow": options["follow"], "dynamics": dynamics, "surroundings": around.to_dict()}
+    how = {"follow": options["follow"], "dynamics": dynamics, "surroundings": around.to_dict(), **taken_tempo(options)}
     for arm in arms:
         following(known.load(arm, **choice), how["follow"])  # refuses what is none, before anything runs
     wanted = library.trials(

@@ -30,6 +30,7 @@ from dmpcpp.cli._options import (
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._robot_files import export_option, print_written
 from dmpcpp.cli._tables import arm_line, note_style, print_checks, print_figures, way
+from dmpcpp.cli._tempo_options import taken_tempo, tempo_options
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument, MissingDependency
 
@@ -76,6 +77,7 @@ def _run_options(
             export_option,
             accept_option,
             dynamics_option,
+            tempo_options,
             click.option("--no-report", is_flag=True, help="Skip report.html; `dmpcpp report` makes it later."),
             click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON instead of the table."),
         )
@@ -102,7 +104,7 @@ def demo(clip: str, body: str, **run: Any) -> None:
         run["out"] = _demo_folder({"clip": clip, "body": body, "arm": run["arm"]}, run["base"], run["tip"])
         click.get_current_context().params["out"] = run["out"]  # which config.toml shall hold
     arm, surroundings = taken_arm(run), taken_surroundings(run)
-    _carry_out(recordings.clip(clip, body), arm, surroundings=surroundings, **run)
+    _carry_out(recordings.clip(clip, body), arm, surroundings=surroundings, **taken_tempo(run), **run)
 
 
 def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> Path:
@@ -141,7 +143,7 @@ def imitate(file: Path, **options: Any) -> None:
     preparation, smooth = taken_preparation(options)
     placing = taken_placing(options)
     rhythm = _taken_rhythm(options)
-    how = {"surroundings": taken_surroundings(options), "follow": options.pop("follow")}
+    how = {"surroundings": taken_surroundings(options), "follow": options.pop("follow"), **taken_tempo(options)}
     if callable(placing["place"]):
         placing["place"] = partial(placing["place"], follow=how["follow"])
     taken = (
@@ -303,11 +305,12 @@ def _advice(run: Imitation) -> str:
 
 
 def _how(run: Imitation) -> str:
-    """Engine, control mode and caveats."""
+    """Tempo, engine, control mode and caveats."""
     engines = " and ".join(log.simulator for log in (run.log, run.second_log) if log is not None)
     followed = run.log.follow.describe()
     asked = f"{followed[0].upper()}{followed[1:]}. " if followed else ""
-    return f"{asked}{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
+    tempo = f"{run.tempo.describe(run.log.arm.joint_names)} " if run.tempo else ""
+    return f"{tempo}{asked}{run.log.arm.name}, {engines}, {run.log.mode} ({run.log.caveat})."
 
 
 def _errors_table(run: Imitation, table_type: type) -> Any:
@@ -315,6 +318,8 @@ def _errors_table(run: Imitation, table_type: type) -> Any:
 
     names = {
         "demonstration_to_dmp": "demonstration → DMP",
+        "recording_to_fitted": "recording → fitted",
+        "dmp_to_fitted": "DMP → fitted",
         "dmp_to_ik": "DMP → FK(IK)",
         "ik_to_executed": "FK(IK) → executed",
     }

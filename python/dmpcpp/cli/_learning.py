@@ -35,6 +35,7 @@ from dmpcpp.cli._options import (
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._robot_files import export_option, print_written
 from dmpcpp.cli._tables import arm_line, note_style, print_checks, way
+from dmpcpp.cli._tempo_options import taken_tempo, tempo_options
 from dmpcpp.cli._verdict import print_verdict
 from dmpcpp.errors import InvalidArgument
 
@@ -239,6 +240,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     "--exact-duration", is_flag=True, help="Never extend the duration; a check fails if joint limits are exceeded."
 )
 @scaling_option
+@tempo_options
 @click.option("--from-joints", metavar="Q1,Q2,..", help="Start joints [rad] (default: searched).")
 @click.option(
     "--simulator",
@@ -294,6 +296,7 @@ def plan(
         duration=duration,
         start=numbers("--from-joints", from_joints) if from_joints else None,
         slow_down=not exact_duration,
+        **taken_tempo(arm),
         simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
         follow=arm["follow"],
         accept=names(accept),
@@ -326,6 +329,8 @@ def _print_plan(found: JointPlan, out: Path) -> None:
             console.print(note, style="yellow", soft_wrap=True, markup=False)
     print_checks(console, found.checks)
     duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x the requested duration"
+    if found.tempo:
+        duration = f"{found.tempo.describe(found.arm.joint_names, 'the requested')} {duration}"
     how = f"{duration}; written to {out}/" + (
         "" if found.ok else ", without joints.csv: do not run this plan on a robot"
     )

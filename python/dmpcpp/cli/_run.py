@@ -18,7 +18,7 @@ from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._numbers import numbers
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE
 from dmpcpp.cli._run_folder import joints_of, require_verified
-from dmpcpp.cli._verification import print_verification, tolerance_option, tolerances_of
+from dmpcpp.cli._verification import print_verification, check_limit_option, tolerances_of
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ _LONG = 1e-3  # s; a cycle of our own work that is longer is counted
 @optional_arm_options("The arm of the plan (default: that of the folder).")
 @follow_option
 @contact_options
-@tolerance_option
+@check_limit_option
 @accept_option
 @click.option(
     "--simulator",

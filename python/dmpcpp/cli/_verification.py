@@ -31,14 +31,14 @@ if TYPE_CHECKING:
     from dmpcpp.verification import Verification
 
 
-def tolerance_option(command: Callable[..., None]) -> Callable[..., None]:
-    """Add --tolerance."""
+def check_limit_option(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --check-limit."""
     return click.option(
-        "--tolerance",
+        "--check-limit",
         "stated",
         multiple=True,
         metavar="NAME=VALUE",
-        help="Override a tolerance [m, rad, ratios], e.g. position_max=0.005; repeatable.",
+        help="Override the limit of a check [m, rad, ratios], e.g. position_max=0.005; repeatable.",
     )(command)
 
 
@@ -52,7 +52,8 @@ def tolerance_option(command: Callable[..., None]) -> Callable[..., None]:
 @click.option("--time-unit", default="s", show_default=True, metavar="s|ms|us|ns", help="Time unit of a CSV log.")
 @click.option("--angle-unit", default="rad", show_default=True, metavar="rad|deg", help="Angle unit of a CSV log.")
 @click.option("--low-pass", default=20.0, show_default=True, metavar="HZ", help="Cutoff for velocity and acceleration.")
-@tolerance_option
+@check_limit_option
+@click.option("--tolerance", "stated_before", multiple=True, hidden=True)  # its name before 0.2
 @accept_option
 @click.option(
     "--simulator",
@@ -70,6 +71,7 @@ def verify(
     angle_unit: str,
     low_pass: float,
     stated: tuple[str, ...],
+    stated_before: tuple[str, ...],
     accept: tuple[str, ...],
     simulator: str,
     as_json: bool,
@@ -82,11 +84,13 @@ def verify(
     LOG is a CSV with the columns time, <joints> and optionally <joint>_vel and <joint>_torque, or a ROS bag with
     sensor_msgs/JointState. Its time lag is estimated from the joints: the two clocks need not agree.
 
-    Example: dmpcpp verify reach/joints.csv log.csv --arm panda --tolerance position_max=0.005
+    Example: dmpcpp verify reach/joints.csv log.csv --arm panda --check-limit position_max=0.005
     """
     from dmpcpp import export, simulation, verification
 
-    tolerances = tolerances_of(stated)
+    if stated_before:
+        click.echo("dmpcpp: --tolerance is --check-limit now; the old name works until 0.3.", err=True)
+    tolerances = tolerances_of((*stated_before, *stated))
     joints = export.read_joints(plan / "joints.csv" if plan.is_dir() else plan)
     as_run = options_of_run(plan if plan.is_dir() else plan.parent, arm, same="arm")
     arm |= as_run
@@ -126,13 +130,13 @@ def tolerances_of(stated: tuple[str, ...]) -> Tolerances:
     for text in stated:
         name, equals, value = text.partition("=")
         if name not in known or not equals:
-            raise InvalidArgument(f"--tolerance: '{text}', expected NAME=VALUE with a NAME of {', '.join(known)}.")
+            raise InvalidArgument(f"--check-limit: '{text}', expected NAME=VALUE with a NAME of {', '.join(known)}.")
         try:
             values[name] = float(value)
         except ValueError:
-            raise InvalidArgument(f"--tolerance: '{text}', expected a number after '='.") from None
+            raise InvalidArgument(f"--check-limit: '{text}', expected a number after '='.") from None
         if not math.isfinite(values[name]):
-            raise InvalidArgument(f"--tolerance: '{text}', expected a finite number.")
+            raise InvalidArgument(f"--check-limit: '{text}', expected a finite number.")
     return Tolerances(**values)  # type: ignore[arg-type]
 
 

@@ -1,7 +1,7 @@
 """Trajectories out, in the files that robot engineers use, and back in; each written whole or not at all.
 
 Joint CSV: `time,<joints>,<joints>_vel,<joints>_acc`, and `phase` where a lead-in and a lead-out are in it; s, rad
-(m for a sliding joint). Plan: a .npz with `time`, `pose`, `twist`, and the names of units and frames. TUM:
+(m for a sliding joint). Plan: a .npz with `time`, `pose`, `twist`, `wanted_time` and the names of units and frames. TUM:
 `t tx ty tz qx qy qz qw`; read it, or a plan, with `recordings.load`.
 """
 
@@ -56,6 +56,8 @@ class PoseMotion(Protocol):
 class Plan:
     """Cartesian trajectory in plan.npz (joint plan: `planning.JointPlan`): time (T,) s, pose (T, 4, 4) of tip in base,
     twist (T, 6), names of both frames.
+
+    `wanted_time` (T,) s is the time of each sample before it was slowed down; None in plans of before 0.2.
     """
 
     time: Array
@@ -64,6 +66,7 @@ class Plan:
     base: str
     tip: str
     follow: str = "pose"
+    wanted_time: Array | None = None
 
 
 def write_joints(path: str | PathLike[str], trajectory: JointMotion, arm: Arm | None = None) -> None:
@@ -152,6 +155,7 @@ def write_plan(
     base: str = "base",
     tip: str = "tip",
     follow: str = "pose",
+    wanted_time: ArrayLike | None = None,
 ) -> None:
     """Write a pose trajectory as .npz with the arrays `time`, `pose`, `twist` and the texts `units`, `base`, `tip`
     and `follow`.
@@ -165,6 +169,8 @@ def write_plan(
         The frames: poses are of `tip` in `base`.
     follow : str
         The part of each pose that the arm follows.
+    wanted_time : array_like (T,), optional
+        s, the time of each sample before it was slowed down.
 
     Raises
     ------
@@ -176,8 +182,10 @@ def write_plan(
     time = strict_times(trajectory.time)
     pose = finite("pose", trajectory.pose, (len(time), 4, 4))
     twist = finite("twist", trajectory.twist, (len(time), 6))
+    names = {"units": _UNITS, "base": base, "tip": tip, "follow": follow}
+    wanted = {} if wanted_time is None else {"wanted_time": finite("wanted_time", wanted_time, (len(time),))}
     with replacing(path) as beside, beside.open("wb") as file:
-        np.savez(file, time=time, pose=pose, twist=twist, units=_UNITS, base=base, tip=tip, follow=follow)
+        np.savez(file, time=time, pose=pose, twist=twist, **names, **wanted)
 
 
 def read_plan(path: str | PathLike[str]) -> Plan:
@@ -198,7 +206,9 @@ def read_plan(path: str | PathLike[str]) -> Plan:
     time = strict_times(arrays["time"])
     pose = finite("pose", arrays["pose"], (len(time), 4, 4))
     twist = finite("twist", arrays["twist"], (len(time), 6))
-    return Plan(time, pose, twist, str(arrays["base"]), str(arrays["tip"]), str(arrays.get("follow", "pose")))
+    wanted = arrays.get("wanted_time")
+    wanted = None if wanted is None else finite("wanted_time", wanted, (len(time),))
+    return Plan(time, pose, twist, str(arrays["base"]), str(arrays["tip"]), str(arrays.get("follow", "pose")), wanted)
 
 
 def write_tum(path: str | PathLike[str], time: ArrayLike, pose: ArrayLike) -> None:

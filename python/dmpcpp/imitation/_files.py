@@ -50,7 +50,9 @@ def write(run: Imitation, folder: str | PathLike[str], formats: Iterable[str] = 
     export.remove_robot_files(folder)
     arm = run.log.arm
     save(run.model, folder / "model.json")
-    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip, follow=str(run.log.follow))
+    wanted = run.tempo.wanted if run.tempo else None
+    follow = str(run.log.follow)
+    export.write_plan(folder / "plan.npz", run.plan, base=arm.base, tip=arm.tip, follow=follow, wanted_time=wanted)
     curves = _curves(run)
     write_record(folder / "execution.npz", _record(run, curves))
     _picture(run, curves, folder / "picture.png")
@@ -69,7 +71,7 @@ def _curves(run: Imitation) -> tuple[plot.ErrorCurve, ...]:
         return plot.ErrorCurve(label, time, metrics.position_errors(a, b), metrics.angle_errors(a, b))
 
     return (
-        curve("demonstration → DMP", run.slowdown * run.recording.time, demonstrated, again),
+        curve("demonstration → DMP", _when(run), demonstrated, again),
         curve("DMP → FK(IK)", run.plan.time, run.plan.pose, solved),
         curve(
             "FK(IK) → executed",
@@ -78,6 +80,12 @@ def _curves(run: Imitation) -> tuple[plot.ErrorCurve, ...]:
             run.log.tool_pose[during],
         ),
     )
+
+
+def _when(run: Imitation) -> Array:
+    """Return when the recorded samples are carried out [s]."""
+    time = run.recording.time
+    return run.tempo.when(time) if run.tempo else run.slowdown * time
 
 
 def _record(run: Imitation, curves: tuple[plot.ErrorCurve, ...]) -> RunRecord:

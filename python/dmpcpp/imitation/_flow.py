@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from dmpcpp import metrics, motion, sending, simulation
 from dmpcpp._core import Arm, JointTrajectory, PoseDmp, PoseTrajectory
 from dmpcpp._engines import default_engine
@@ -23,7 +25,21 @@ from dmpcpp.imitation._calmer import Calmer, calmer
 from dmpcpp.learning import Evidence, Lesson, evidence, learn, learnable, reproduction, reproduction_checks, teach
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
-from dmpcpp.planning import Cycles, Engine, LookedAt, Placement, clear_of_itself, require_free_postures, solve
+from dmpcpp.planning import (
+    DEFAULT_TOLERANCE,
+    Cycles,
+    Engine,
+    Fitted,
+    LookedAt,
+    Placement,
+    Solution,
+    Tempo,
+    Tolerance,
+    clear_of_itself,
+    require_free_postures,
+    solve,
+    tempo_check,
+)
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
 from dmpcpp.robot import (
@@ -66,13 +82,15 @@ class Imitation(Checked):
     slowdown : float
         Duration of the executed motion over that of the recording.
     plan : PoseTrajectory
-        The model's rollout, slowed down.
+        The model's rollout, slowed down; or what was fitted to the arm within the tolerance of it.
     joints : JointTrajectory
     sent : RestToRest
         The joints with a lead-in and a lead-out: what was executed, and what a robot may get.
     log : ExecutionLog
     stages : dict of str to StageErrors
-        "demonstration_to_dmp" (at the samples that were measured, equal phase), "dmp_to_ik", "ik_to_executed".
+        "demonstration_to_dmp" (at the samples that were measured, equal phase), "dmp_to_ik", "ik_to_executed"; of a
+        motion that was fitted to the arm also "recording_to_fitted" and "dmp_to_fitted", "dmp_to_ik" being of the
+        fitted poses.
     checks : tuple of Check
     evidence : Evidence
         What the recording shows of noise, as it stands in the robot's base frame, and whether it was taken out.
@@ -84,6 +102,10 @@ class Imitation(Checked):
         What is looked at for contacts, and what is left out.
     calmer : Calmer or None
         What a low-pass would gain, where the motion is much slower than recorded because of what is fast in it.
+    tempo : Tempo or None
+        Where the motion is slower than the person's, and by how much.
+    fit : Fitted or None
+        How far the plan is from the learned path; None where it is the learned path.
     """
 
     recording: Recording
@@ -101,6 +123,8 @@ class Imitation(Checked):
     accepted: tuple[str, ...] = ()
     contacts: LookedAt | None = None
     calmer: Calmer | None = None
+    tempo: Tempo | None = None
+    fit: Fitted | None = None
 
     @property
     def noise(self) -> Noise:
@@ -138,6 +162,8 @@ class Imitation(Checked):
             "slowdown": self.slowdown,
             "leads": self.sent.to_dict(),
             "calmer": self.calmer.to_dict() if self.calmer else None,
+            "tempo": self.tempo.to_dict(self.log.arm.joint_names) if self.tempo else None,
+            "fitted": self.fit.to_dict() if self.fit else None,
             "simulator": self.log.simulator,
             "second_simulator": self.second_log.simulator if self.second_log else None,
             "mode": self.log.mode,
@@ -166,6 +192,9 @@ def imitate(
     follow: str | Follow | None = None,
     cycles: int | None = None,
     minimum_period: float = 0.0,
+    tempo: str = "person",
+    slowest: float | None = None,
+    tolerance: str | Tolerance | tuple[float, float] | None = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
 ) -> Imitation:
     """Carry out a recorded motion on a simulated arm and say how well that went.
@@ -211,6 +240,14 @@ def imitate(
         model, which is carried out so many times, from rest to rest (`planning.Cycles`).
     minimum_period : float
         s, of the cycle that is looked for.
+    tempo : "person", "uniform" or "fastest"
+        The recorded timing, slower only where the arm's limits bind (the tempo changes by at most a factor 2 in
+        0.2 s); slower by one factor; or as fast as the limits allow at every point of the path, from rest to rest.
+    slowest : float, optional
+        The most that the duration may be of the recorded one, a check; unless stated, 10.
+    tolerance : Tolerance, (float, float) or str, optional
+        How far the tip may be from the learned path [m, rad] where the arm's limits then ask for less time: a maximum,
+        "1mm,0.5deg" for instance. None or "0": the learned path itself.
     progress : callable, optional
         See `Progress`.
 
@@ -256,6 +293,8 @@ def imitate(
         arm=arm,
         start=placement.start if placement else None,
         accept=clear,
+        tempo=tempo,
+        tolerance=tolerance,
         engine=engines[0],
         follow=followed,
     )
@@ -264,6 +303,7 @@ def imitate(
     if smooth and cycles is None:
         less = calmer(placed, found.motion, solution.slowdown, lambda of: float(ways(of).motion.time[-1]))
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
+    placed = placed.with_(solution.fit.describe()) if solution.fit else placed
     require_holdable(arm, joints.position)
     sent = sending.from_rest_to_rest(arm, joints, clear.keeps_clear)
     tell("execute", 0.0)
@@ -272,11 +312,14 @@ def imitate(
     log, second = logs[0], logs[1] if len(logs) > 1 else None
     stages = {
         "demonstration_to_dmp": reproduction(model, demonstration, placed.measured),
+        **_fitted_stages(arm, solution, placed),
         "dmp_to_ik": metrics.compare(plan.pose, arm.forward_kinematics(joints.position)),
         "ik_to_executed": log.errors,
     }
     reproduced = lesson.checks if lesson else reproduction_checks(model, found)
-    checks = (*reproduced, *path_checks, sending.ready(sending.check(sent, arm)), *log.verdict.checks)
+    fitted = solution.fit.checks(followed) if solution.fit else ()
+    ready = sending.ready(sending.check(sent, arm))
+    checks = (*reproduced, *fitted, *path_checks, ready, *log.verdict.checks, *tempo_check(solution.tempo, slowest))
     if second is not None:
         checks = (*checks, *simulation.agreement(log, second))
     if dynamics == "none":
@@ -297,7 +340,21 @@ def imitate(
         accepted,
         looked_at,
         less,
+        solution.tempo,
+        solution.fit,
     )
+
+
+def _fitted_stages(arm: Arm, solution: Solution, placed: Recording) -> dict[str, StageErrors]:
+    """Return how far a fitted motion is from the placed recording, at its samples, and from the learned motion."""
+    if solution.fit is None:
+        return {}
+    when = solution.tempo.when(placed.time - placed.time[0])
+    joints = np.stack([np.interp(when, solution.joints.time, q) for q in solution.joints.position.T], axis=1)
+    return {
+        "recording_to_fitted": metrics.compare(motion.poses(placed), arm.forward_kinematics(joints)),
+        "dmp_to_fitted": metrics.compare(solution.learned.pose, solution.motion.pose),
+    }
 
 
 def _together(

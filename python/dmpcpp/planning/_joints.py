@@ -1,10 +1,10 @@
-"""The step from a model to joints: the path rolled out, followed by the arm, and slowed down to its limits."""
+"""The step from a model to joints: the path rolled out, followed by the arm, and slowed down where limits bind."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -20,12 +20,16 @@ from dmpcpp._core import (
     PoseTrajectory,
     Via,
     duration_factor,
+    retimed,
     stretched,
 )
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._bound import arm_bound
 from dmpcpp.planning._cycles import Cycles
+from dmpcpp.planning._fit import DEFAULT_TOLERANCE, Fitted, Tolerance, fitted, taken_tolerance
 from dmpcpp.planning._placement import Accept
+from dmpcpp.planning._tempo import RESERVE, Tempo, TempoPolicy, demand_of, on_pace, taken_policy
 from dmpcpp.robot import POSE, Follow, stated_duration_factor
 from dmpcpp.simulation import Simulator
 
@@ -38,7 +42,6 @@ Led = PoseDmp | PoseDmpSequence | Cycles
 _SAMPLES = 1000  # of a path, at least
 _SAMPLES_PER_KERNEL = 10
 _INSET = 2e-3  # rad or m, kept off the position limits where the path allows: a spline overshoots its samples
-_RESERVE = 1.02  # on the duration that the joint limits ask for: the feedback needs some of them
 _TORQUE_SHARE = 0.95  # of the effort limits; the rest is left to the feedback
 _BRANCHES = 12  # other starts that are tried where the best one is not accepted
 
@@ -53,13 +56,24 @@ class Solution:
         Of the arm's tip in its base frame, at the samples of the joints.
     joints : JointTrajectory
         Its report says which poses are met.
-    slowdown : float
-        The duration over the one that was asked for, >= 1.
+    tempo : Tempo
+        Where the motion is slower than it was asked for, and by how much.
+    learned : PoseTrajectory
+        The model's rollout, at the same samples; the motion itself unless that was fitted.
+    fit : Fitted or None
+        How far the motion is from the learned one, within the tolerance; None where it is the learned one.
     """
 
     motion: PoseTrajectory
     joints: JointTrajectory
-    slowdown: float
+    tempo: Tempo
+    learned: PoseTrajectory
+    fit: Fitted | None = None
+
+    @property
+    def slowdown(self) -> float:
+        """The duration over the one that was asked for."""
+        return self.tempo.slowdown
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,14 +84,17 @@ class Slowed:
     ----------
     joints : JointTrajectory
     factor : float
-        Duration over original duration, >= 1.
+        Duration over original duration.
     possible : bool
         False if no finite duration meets the limits (`torque_share` of the effort limits); `joints` then violates one.
+    tempo : Tempo
+        Where they are slower, and by how much.
     """
 
     joints: JointTrajectory
     factor: float
     possible: bool
+    tempo: Tempo
 
 
 def solve(
@@ -90,6 +107,8 @@ def solve(
     stand: ArrayLike | None = None,
     accept: Accept | None = None,
     slow_down: bool = True,
+    tempo: str = "person",
+    tolerance: str | Tolerance | tuple[float, float] | None = DEFAULT_TOLERANCE,
     engine: Engine | None = None,
     follow: str | Follow = POSE,
     via: Sequence[Via] = (),
@@ -114,6 +133,12 @@ def solve(
         of them the first is returned. Not called with `stand`.
     slow_down : bool
         Take longer where velocity or acceleration limits ask for it.
+    tempo : "person", "uniform" or "fastest"
+        How: only where they bind, evenly, or as fast as they allow at every point of the path, from rest to rest.
+    tolerance : Tolerance, (float, float) or str, optional
+        How far the tip may be from the learned path [m, rad], "1mm,0.5deg" for instance, where the limits then ask for
+        less time. None or "0": the learned path itself, which is also followed from joints in which the arm stands,
+        through via-poses and in cycles.
     engine : callable, optional
         Also slow down to the effort limits. If no duration meets them, only the other limits are applied; `slowed`
         reports that as `possible`.
@@ -128,16 +153,31 @@ def solve(
         What `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An incomplete path does not raise: see
         `joints.report.complete`.
     """
+    policy, allowed = taken_policy(tempo), taken_tolerance(tolerance)
     wanted = model.duration if duration is None else duration
     dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * _kernels(model))
-    motion = _rolled_out(model, goal, wanted, dt, via)
-    joints = _followed(motion, arm, start, stand, accept, follow)
+    learned = _rolled_out(model, goal, wanted, dt, via)
+    joints = _followed(learned, arm, start, stand, accept, follow)
     if not slow_down:
-        return Solution(motion, joints, 1.0)
-    slow = slowed(arm, joints, engine)
-    if slow.factor > 1.0:
-        motion = _rolled_out(model, goal, slow.factor * wanted, slow.factor * dt, _slower(via, slow.factor))
-    return Solution(motion, slow.joints, slow.factor)
+        return Solution(learned, joints, Tempo.unchanged(joints.time), learned)
+    fit = None
+    led_elsewhere = stand is not None or via or isinstance(model, Cycles)  # joints, poses or a rest that must be met
+    if allowed is not None and not led_elsewhere and joints.report.complete:
+        fit = fitted(arm, learned, joints, allowed, follow, accept, _TORQUE_SHARE if engine else None)
+    slow = slowed(arm, fit.joints if fit else joints, engine, tempo=policy)
+    if policy != "uniform" or fit:
+        again = retimed(learned, slow.tempo.pace)
+    elif slow.factor > 1.0:
+        again = _rolled_out(model, goal, slow.factor * wanted, slow.factor * dt, _slower(via, slow.factor))
+    else:
+        again = learned
+    motion = retimed(fit.motion, slow.tempo.pace) if fit else again
+    return Solution(motion, slow.joints, _bounded(slow.tempo, arm, learned, follow), again, fit)
+
+
+def _bounded(tempo: Tempo, arm: Arm, learned: PoseTrajectory, follow: Follow) -> Tempo:
+    """Add what the arm can do at all, where the motion is slower than it was asked for."""
+    return replace(tempo, bound=arm_bound(arm, learned, follow)) if tempo.slowdown > 1.0 else tempo
 
 
 def _kernels(model: Led) -> int:
@@ -173,23 +213,37 @@ def limit_factor(arm: Arm, joints: JointTrajectory) -> float:
 
 
 def slowed(
-    arm: Arm, joints: JointTrajectory, engine: Engine | None = None, torque_share: float = _TORQUE_SHARE
+    arm: Arm,
+    joints: JointTrajectory,
+    engine: Engine | None = None,
+    torque_share: float = _TORQUE_SHARE,
+    *,
+    tempo: TempoPolicy = "uniform",
 ) -> Slowed:
-    """Slow joints down until the limits hold, with a reserve of 2 %.
+    """Slow joints down until the limits hold, with a reserve of 2 %: evenly unless `tempo` says otherwise.
 
     Velocity and acceleration limits always; with an engine also `torque_share` of the effort limits.
     """
-    factor = max(1.0, _RESERVE * limit_factor(arm, joints))
-    if not math.isfinite(factor):
-        return Slowed(joints, 1.0, False)
-    slow = stretched(joints, factor)
-    if engine is None:
-        return Slowed(slow, factor, True)
-    torque = simulation.torque_duration_factor(arm, slow, share=torque_share, simulator=engine)
+    share = None if engine is None else torque_share
+    if tempo == "uniform":
+        factor = max(1.0, RESERVE * limit_factor(arm, joints))
+        demand = demand_of(arm, joints, share)
+        if not math.isfinite(factor):
+            return Slowed(joints, 1.0, False, Tempo.unchanged(joints.time, tempo, demand))
+        slow, found = stretched(joints, factor), Tempo.even(joints.time, factor, tempo, demand)
+    else:
+        slow, found = on_pace(arm, joints, tempo, share)
+    return _within_effort(arm, slow, found, engine, torque_share)
+
+
+def _within_effort(arm: Arm, joints: JointTrajectory, tempo: Tempo, engine: Engine | None, share: float) -> Slowed:
+    """Stretch what an engine's inverse dynamics still finds too fast, friction and repaired inertias in it."""
+    torque = 1.0 if engine is None else simulation.torque_duration_factor(arm, joints, share=share, simulator=engine)
     if not math.isfinite(torque):
-        return Slowed(slow, factor, False)
-    factor *= max(1.0, torque)
-    return Slowed(stretched(joints, factor), factor, True)
+        return Slowed(joints, tempo.slowdown, False, tempo)
+    if torque <= 1.0:
+        return Slowed(joints, tempo.slowdown, True, tempo)
+    return Slowed(stretched(joints, torque), torque * tempo.slowdown, True, tempo.stretched(torque))
 
 
 def _followed(

@@ -24,8 +24,10 @@ from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._clearance import LookedAt, clear_of_itself, require_free_postures
+from dmpcpp.planning._fit import DEFAULT_TOLERANCE, Fitted, Tolerance
 from dmpcpp.planning._joints import Led, solve
 from dmpcpp.planning._scaling import ChosenScaling, with_scaling
+from dmpcpp.planning._tempo import Tempo, tempo_check
 from dmpcpp.robot import (
     POSE,
     Follow,
@@ -70,6 +72,10 @@ class JointPlan(Checked):
         The joints with a lead-in and a lead-out: what a robot may get.
     scaling : ChosenScaling or None
         How the model goes to the goal, and why.
+    tempo : Tempo or None
+        Where it is slower than wanted, and by how much.
+    fit : Fitted or None
+        How far it is from the learned path; None where it is the learned path.
     """
 
     arm: Arm
@@ -83,6 +89,8 @@ class JointPlan(Checked):
     follow: Follow = POSE
     via: tuple[Via, ...] = ()
     scaling: ChosenScaling | None = None
+    tempo: Tempo | None = None
+    fit: Fitted | None = None
 
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
@@ -95,6 +103,8 @@ class JointPlan(Checked):
             "duration": float(self.joints.time[-1]),
             "slowdown": self.slowdown,
             "leads": self.sent.to_dict(),
+            "tempo": self.tempo.to_dict(self.arm.joint_names) if self.tempo else None,
+            "fitted": self.fit.to_dict() if self.fit else None,
             "contacts": self.contacts.to_dict() if self.contacts else None,
             "samples": len(self.joints.time),
             "goal": self.motion.pose[-1].tolist(),
@@ -113,6 +123,9 @@ def plan(
     duration: float | None = None,
     start: ArrayLike | None = None,
     slow_down: bool = True,
+    tempo: str = "person",
+    slowest: float | None = None,
+    tolerance: str | Tolerance | tuple[float, float] | None = DEFAULT_TOLERANCE,
     simulator: Callable[..., Simulator] | None = None,
     accept: Iterable[str] = (),
     follow: str | Follow | None = None,
@@ -134,6 +147,14 @@ def plan(
         Current joints [rad, m]; the path must be followed from here. Default: searched.
     slow_down : bool
         Take longer where velocity or acceleration limits ask for it; otherwise a check says so.
+    tempo : "person", "uniform" or "fastest"
+        How: only where they bind, with a tempo that changes by at most a factor 2 in 0.2 s; evenly; or as fast as they
+        allow at every point of the path, from rest to rest.
+    slowest : float, optional
+        The most that the duration may be of the one that is wanted, a check; unless stated, 10.
+    tolerance : Tolerance, (float, float) or str, optional
+        How far the tip may be from the learned path [m, rad] where that takes less time; None or "0": the path itself.
+        From stated start joints, through via-poses and in cycles the path itself is followed.
     simulator : callable, optional
         Engine for contact checks, e.g. `simulation.default_simulator`. None (default): no collision check; `ok` and
         joints.csv do not cover collisions.
@@ -184,6 +205,8 @@ def plan(
         stand=_stand(start, arm),
         accept=clear,
         slow_down=slow_down,
+        tempo=tempo,
+        tolerance=tolerance,
         follow=followed,
         via=via,
     )
@@ -197,10 +220,12 @@ def plan(
         *dimension_checks(arm),
         *_stated(arm, joints),
         sending.ready(sending.check(sent, arm)),
+        *(solution.fit.checks(followed) if solution.fit else ()),
+        *tempo_check(solution.tempo, slowest),
     )
     if simulator is not None:
         checks = (*checks, *path_checks(arm, sent, simulator=simulator))
-    plain = (checks, accepted, looked_at, followed, tuple(via), chosen)
+    plain = (checks, accepted, looked_at, followed, tuple(via), chosen, solution.tempo, solution.fit)
     return JointPlan(arm, solution.motion, joints, sent, solution.slowdown, *plain)
 
 
@@ -269,7 +294,12 @@ def write(found: JointPlan, folder: str | PathLike[str], formats: Iterable[str] 
     (folder / "summary.json").unlink(missing_ok=True)
     export.remove_robot_files(folder)
     export.write_plan(
-        folder / "plan.npz", found.motion, base=found.arm.base, tip=found.arm.tip, follow=str(found.follow)
+        folder / "plan.npz",
+        found.motion,
+        base=found.arm.base,
+        tip=found.arm.tip,
+        follow=str(found.follow),
+        wanted_time=found.tempo.wanted if found.tempo else None,
     )
     sent = export.write_robot_files(folder, found.sent, found.arm, chosen) if found.ok else export.Written()
     write_text(folder / "summary.json", json.dumps(found.summary(), indent=2, allow_nan=False) + "\n")

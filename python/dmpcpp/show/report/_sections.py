@@ -21,6 +21,8 @@ _CHECK_TITLES = ("", "what", "found", "allowed", "where", "check")
 
 _STAGES = {
     "demonstration_to_dmp": "demonstration → DMP",
+    "recording_to_fitted": "recording → fitted",
+    "dmp_to_fitted": "DMP → fitted",
     "dmp_to_ik": "DMP → FK(IK)",
     "ik_to_executed": "FK(IK) → executed",
 }
@@ -126,8 +128,31 @@ def _figures_of(summary: dict[str, Any]) -> str:
     return (
         f"{summary['recording']['samples']} samples over {summary['recording']['duration']:.2f} s; "
         f"{summary['basis_count']} kernels; executed in {summary['duration']:.2f} s, "
-        f"{summary['slowdown']:.2f} x the recorded duration."
+        f"{summary['slowdown']:.2f} x the recorded duration.{_tempo(summary.get('tempo'))}"
     )
+
+
+def _tempo(tempo: dict[str, Any] | None) -> str:
+    """How the person's tempo was kept; nothing for runs of before 0.2."""
+    if not tempo:
+        return ""
+    slowest = f" At most {tempo['peak']:.2f} x slower than the person, at {tempo['peak_time']:.2f} s of the recording;"
+    kept = f" {100 * tempo['kept']:.0f} % of the recording at the person's tempo."
+    shown = slowest if tempo["policy"] == "person" else ""
+    return f" Tempo: {tempo['policy']}.{shown}{kept}{_decides(tempo)}{_bound(tempo)}"
+
+
+def _bound(tempo: dict[str, Any]) -> str:
+    found = tempo.get("bound")
+    return f" With this arm no method takes less than {found['local']:.2f} x." if found else ""
+
+
+def _decides(tempo: dict[str, Any]) -> str:
+    found = tempo["decided_by"]
+    if not found:
+        return ""
+    joint = f" of {found['joint']}" if found["joint"] else ""
+    return f" Asked most, at {found['time']:.2f} s: {found['limit'].replace('_', ' ')}{joint}."
 
 
 def _check_row(check: dict[str, Any]) -> tuple[str, ...]:

@@ -21,7 +21,8 @@ from dmpcpp.trials.generality._trial import Result, Trial, attempt
 __all__ = ["kept", "run", "trials"]
 
 _CHOICE = {"base": None, "tip": None, "tool": None, "package_path": [], "limits": {}}
-_OPTIONS = {"follow": None, "dynamics": "full", "surroundings": Surroundings().to_dict()}
+_OPTIONS = {"follow": None, "dynamics": "full", "slowest": None, "surroundings": Surroundings().to_dict()}
+_TEMPO = {"tempo": "person", "tolerance": "1mm,0.5deg"}  # unless stated
 
 
 def trials(
@@ -53,7 +54,7 @@ def trials(
     if not arms:
         raise InvalidArgument("arms: none, expected at least one.")
     accepted = accepted_names(accept)
-    how = (accepted, _other_than(_CHOICE, choice), _other_than(_OPTIONS, options))
+    how = (accepted, _other_than(_CHOICE, choice), _other_than(_OPTIONS, {**_TEMPO, **(options or {})}))
     return [Trial(arm, noise, seed, index, *how) for index, arm, noise in product(range(count), arms, noises)]
 
 

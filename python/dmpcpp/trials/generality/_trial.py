@@ -46,7 +46,8 @@ class Trial:
     choice : mapping
         What `arms.load` takes by keyword, for JSON.
     options : mapping
-        `follow`, `dynamics` and `surroundings` (`Surroundings.to_dict`) of `imitation.imitate`.
+        `follow`, `dynamics`, `tempo`, `slowest`, `tolerance` and `surroundings` (`Surroundings.to_dict`) of
+        `imitation.imitate`. A trial without `tempo` and `tolerance` is of before 0.2: uniform, and not fitted.
     """
 
     arm: str
@@ -65,7 +66,7 @@ class Trial:
     def imitation_options(self) -> dict[str, Any]:
         """Return what `imitation.imitate` takes by keyword."""
         around = Surroundings.of(self.options.get("surroundings"))
-        return {**self.options, "surroundings": around, "accept": self.accept}
+        return {"tempo": "uniform", "tolerance": "0", **self.options, "surroundings": around, "accept": self.accept}
 
 
 @dataclass(frozen=True)
