@@ -43,8 +43,8 @@ Demand asked(const JointTrajectory& joints, const Array& velocity_limit, const A
   return arm ? largest_demand(*arm, joints, limits) : largest_demand(joints, limits);
 }
 
-/// Throws InvalidArgument unless the clock is one: times that rise, a slowdown of at least 1, all of them
-/// finite.
+/// Throws InvalidArgument unless the clock is one: times that rise, a slowdown above 0 (below 1 of what is
+/// sped up), all of them finite.
 Pace checked_pace(const Pace& pace) {
   const Eigen::Index count = pace.time.size();
   if (pace.slowdown.size() != count || pace.rate.size() != count)
@@ -56,8 +56,9 @@ Pace checked_pace(const Pace& pace) {
     if (!std::isfinite(pace.time[k]) || (k > 0 && pace.time[k] <= pace.time[k - 1]))
       throw InvalidArgument("time" + at + std::to_string(pace.time[k]) +
                             ", expected finite times that rise.");
-    if (!(pace.slowdown[k] >= 1.0) || !std::isfinite(pace.slowdown[k]))
-      throw InvalidArgument("slowdown" + at + std::to_string(pace.slowdown[k]) + ", expected at least 1.");
+    if (!(pace.slowdown[k] > 0.0) || !std::isfinite(pace.slowdown[k]))
+      throw InvalidArgument("slowdown" + at + std::to_string(pace.slowdown[k]) +
+                            ", expected a number above 0.");
     if (!std::isfinite(pace.rate[k])) throw InvalidArgument("rate" + at + "expected a finite number.");
   }
   return pace;

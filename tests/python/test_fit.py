@@ -14,7 +14,8 @@ from tests.python.test_planning import six_joints, swing
 
 @pytest.fixture(scope="module")
 def arm() -> Arm:
-    return six_joints()
+    """An arm whose motors are no limit: accelerations are."""
+    return six_joints().with_limits(effort=np.full(6, 1e4))
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from dmpcpp.cli._limit_options import accept_option, names
 from dmpcpp.cli._numbers import numbers
 from dmpcpp.cli._options import DEFAULT_ENGINE, SHOWN_ENGINE
 from dmpcpp.cli._run_folder import joints_of, require_verified
-from dmpcpp.cli._verification import print_verification, check_limit_option, tolerances_of
+from dmpcpp.cli._verification import check_limit_option, print_verification, tolerances_of
 from dmpcpp.errors import InvalidArgument
 
 if TYPE_CHECKING:

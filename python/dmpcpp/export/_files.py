@@ -1,7 +1,7 @@
 """Trajectories out, in the files that robot engineers use, and back in; each written whole or not at all.
 
 Joint CSV: `time,<joints>,<joints>_vel,<joints>_acc`, and `phase` where a lead-in and a lead-out are in it; s, rad
-(m for a sliding joint). Plan: a .npz with `time`, `pose`, `twist`, `wanted_time` and the names of units and frames. TUM:
+(m for a sliding joint). Plan: a .npz with `time`, `pose`, `twist`, `wanted_time`, names of units and frames. TUM:
 `t tx ty tz qx qy qz qw`; read it, or a plan, with `recordings.load`.
 """
 

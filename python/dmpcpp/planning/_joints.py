@@ -15,6 +15,7 @@ from dmpcpp._core import (
     Arm,
     InverseKinematics,
     JointTrajectory,
+    PacedLimit,
     PoseDmp,
     PoseDmpSequence,
     PoseTrajectory,
@@ -140,8 +141,8 @@ def solve(
         less time. None or "0": the learned path itself, which is also followed from joints in which the arm stands,
         through via-poses and in cycles.
     engine : callable, optional
-        Also slow down to the effort limits. If no duration meets them, only the other limits are applied; `slowed`
-        reports that as `possible`.
+        Whose inverse dynamics the effort limits must hold, too. If no duration meets them, only the other limits are
+        applied; `slowed` reports that as `possible`.
     follow : str or Follow
         The part of each pose that the arm follows: "pose", "position", "axis" (z) or "axis:x", ..
     via : sequence of Via
@@ -163,7 +164,7 @@ def solve(
     fit = None
     led_elsewhere = stand is not None or via or isinstance(model, Cycles)  # joints, poses or a rest that must be met
     if allowed is not None and not led_elsewhere and joints.report.complete:
-        fit = fitted(arm, learned, joints, allowed, follow, accept, _TORQUE_SHARE if engine else None)
+        fit = fitted(arm, learned, joints, allowed, follow, accept, _TORQUE_SHARE)
     slow = slowed(arm, fit.joints if fit else joints, engine, tempo=policy)
     if policy != "uniform" or fit:
         again = retimed(learned, slow.tempo.pace)
@@ -222,17 +223,18 @@ def slowed(
 ) -> Slowed:
     """Slow joints down until the limits hold, with a reserve of 2 %: evenly unless `tempo` says otherwise.
 
-    Velocity and acceleration limits always; with an engine also `torque_share` of the effort limits.
+    Limits of velocity, acceleration and `torque_share` of the effort: by KDL's inverse dynamics, and with an engine by
+    that engine's, which knows friction.
     """
-    share = None if engine is None else torque_share
     if tempo == "uniform":
-        factor = max(1.0, RESERVE * limit_factor(arm, joints))
-        demand = demand_of(arm, joints, share)
+        demand = demand_of(arm, joints, torque_share)
+        by_effort = demand.factor if engine is None and demand.limit == PacedLimit.effort else 1.0
+        factor = max(1.0, RESERVE * limit_factor(arm, joints), by_effort)
         if not math.isfinite(factor):
             return Slowed(joints, 1.0, False, Tempo.unchanged(joints.time, tempo, demand))
         slow, found = stretched(joints, factor), Tempo.even(joints.time, factor, tempo, demand)
     else:
-        slow, found = on_pace(arm, joints, tempo, share)
+        slow, found = on_pace(arm, joints, tempo, torque_share)
     return _within_effort(arm, slow, found, engine, torque_share)
 
 

@@ -17,6 +17,7 @@ __all__ = ["Follower"]
 
 _STOPS = (0.2, 0.22, 0.24, 0.26, 0.28, 0.3, 0.33, 0.36, 0.4, 0.45, 0.52, 0.6, 0.7, 0.85, 1.0, 1.3, 1.6)
 """s, of which a stop takes the first that holds the limits."""
+_ROUNDING = 1e-9  # s; the last sample is sent, too, where its time was added up
 _PLACES = 200  # of the motion where the duration of a stop is found beforehand
 _EDGE = 0.15  # of a stop in which its deceleration rises, and falls again
 _SHARE = 0.98  # of the limits that a stop uses
@@ -96,11 +97,12 @@ class Follower:
             place = min(self.speed * time, self._end)
             self._stop = time, place, self._stops[min(_PLACES, int(_PLACES * place / self._end) + 1)]
         if self._stop is None:
-            return self.speed * time, self.speed, 0.0, self.speed * time > self._end
+            return self.speed * time, self.speed, 0.0, self.speed * time > self._end + _ROUNDING
         begin, place, duration = self._stop
         way, rate, slope, _ = _falling(min((time - begin) / duration, 1.0))
         place += self.speed * duration * way
-        return place, self.speed * rate, self.speed * slope / duration, time - begin > duration or place > self._end
+        over = time - begin > duration + _ROUNDING or place > self._end + _ROUNDING
+        return place, self.speed * rate, self.speed * slope / duration, over
 
     def _evaluate(self, place: float, rate: float, slowing: float) -> None:
         """Fill in the states; beyond the end the joints rest there."""

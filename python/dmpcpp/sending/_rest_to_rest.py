@@ -119,9 +119,10 @@ def from_rest_to_rest(arm: Arm, joints: JointMotion, clear: Clear | None = None)
     clear : callable, optional
         Whether the arm touches nothing along joints (N, n); by default that is not looked at.
     """
-    step = float(np.median(np.diff(joints.time)))
-    step /= np.ceil(step / _LONGEST_STEP - 1e-9)
-    before, after = lead_out(arm, Backwards(joints), step, clear), lead_out(arm, joints, step, clear)
+    steps = np.diff(joints.time)[[0, -1]]  # a motion that is slower in its middle has longer steps there
+    steps /= np.ceil(steps / _LONGEST_STEP - 1e-9)
+    before = lead_out(arm, Backwards(joints), float(steps[0]), clear)
+    after = lead_out(arm, joints, float(steps[1]), clear)
     begin, end = before.replaced, len(joints.time) - after.replaced
     parts = {
         "time": (joints.time[begin] - before.after[::-1], joints.time[end - 1] + after.after),
