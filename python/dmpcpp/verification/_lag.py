@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
 from dmpcpp._core import JointTrajectory
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.sending import states_at
 from dmpcpp.verification._joint_log import JointLog
@@ -14,6 +15,7 @@ from dmpcpp.verification._joint_log import JointLog
 _GRID = 400  # times of the plan that are compared
 _STEP = 0.02  # s between the lags that are tried first: short beside any motion of an arm
 _RESOLUTION = 1e-7  # s
+_STILL = 0.01  # of the plan's variance: a log that moves less within the plan's duration stands still
 
 
 def estimate_lag(joints: JointTrajectory, log: JointLog) -> float:
@@ -56,7 +58,25 @@ def estimate_lag(joints: JointTrajectory, log: JointLog) -> float:
         return float(share * np.mean(np.var(error, axis=0)) + (1.0 - share) * spread)
 
     lags = np.linspace(-half, last - half, 2 + int(last / _STEP))
-    best = lags[np.argmin([cost(lag) for lag in lags])]
+    moves = _variance_within(clock, log.position, lags, float(time[-1])) >= _STILL * spread
+    costs = np.full(len(lags), np.inf)
+    costs[moves] = [cost(lag) for lag in lags[moves]]
+    if costs.min() >= (1.0 - _STILL**0.5) ** 2 * spread:  # else no lag at which the log stands still can be better
+        costs[~moves] = [cost(lag) for lag in lags[~moves]]
+    best = lags[np.argmin(costs)]
     step = lags[1] - lags[0]
     found = minimize_scalar(cost, bounds=(best - step, best + step), options={"xatol": _RESOLUTION})
     return float(log.time[0] + (found.x if found.fun <= cost(best) else best))
+
+
+def _variance_within(clock: Array, position: Array, lags: Array, duration: float) -> Array:
+    """Mean variance of the joints over the samples of each window of the log; inf where one reaches beyond the log."""
+    first, last = np.searchsorted(clock, lags), np.searchsorted(clock, lags + duration)
+    count = np.maximum(last - first, 1)[:, None]
+    centred = position - position.mean(axis=0)
+    zero = np.zeros((1, position.shape[1]))
+    sums, squares = (np.vstack([zero, np.cumsum(centred**power, axis=0)]) for power in (1, 2))
+    mean = (sums[last] - sums[first]) / count
+    variance = np.mean((squares[last] - squares[first]) / count - mean**2, axis=1)
+    beyond = (lags < 0.0) | (lags + duration > clock[-1])
+    return np.where(beyond, np.inf, variance)
