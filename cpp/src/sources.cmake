@@ -40,6 +40,13 @@ set(DMP_core_SOURCES
   primitive/turning_system.cpp
   primitive/vector_space.cpp
   primitive/vector_system.cpp
+  safety/braking.cpp
+  safety/half_spaces.cpp
+  safety/obstacle.cpp
+  safety/safety_filter.cpp
+  safety/safety_place.cpp
+  safety/safety_step.cpp
+  safety/turn_limits.cpp
   spline/band_cholesky.cpp
   spline/collocation.cpp
   spline/denoising.cpp

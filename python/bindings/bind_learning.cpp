@@ -133,6 +133,7 @@ void bind_learning(py::module_& m) {
       .value("invalid_input", Status::invalid_input)
       .value("not_finite", Status::not_finite)
       .value("too_late", Status::too_late)
+      .value("blocked", Status::blocked)
       .finalize();
   py::class_<EndPeaks>(
       m, "EndPeaks",

@@ -9,6 +9,7 @@
 #include <dmp/error.hpp>
 #include <dmp/file.hpp>
 #include <dmp/fit_report.hpp>
+#include <dmp/safety_filter.hpp>
 #include <dmp/status.hpp>
 
 #include <exception>
@@ -102,15 +103,31 @@ struct PythonCoupling {
   }
 };
 
-/// A step with a coupling; where that raises, the run stays as it was.
+/// A step with a coupling; where that raises, the run stays as it was, and the filter, if there is one.
 template <class Run, class Space>
-Status step_coupled(Run& run, double dt, const py::object& function) {
+Status step_coupled(Run& run, double dt, const py::object& function, SafetyFilter* filter) {
   Run before(run);
+  const std::optional<SafetyFilter> filter_before =
+      filter ? std::optional<SafetyFilter>(*filter) : std::nullopt;
   const PythonCoupling<Space> coupling{function, {}};
-  const Status status = run.step(dt, coupling);
+  const Status status = filter ? run.step(dt, coupling, *filter) : run.step(dt, coupling);
   if (!coupling.raised) return status;
   run = before;
+  if (filter) *filter = *filter_before;
   std::rethrow_exception(coupling.raised);
+}
+
+/// The same as is_running, where the filter may be what refuses the step.
+template <class Run>
+bool is_running_filtered(const Run& run, Status status, double dt) {
+  if (status == Status::blocked) return run.phase() < 1.0 - 1e-9;
+  if (status == Status::invalid_input)
+    throw InvalidArgument(
+        "step: dt (" + short_number(dt) +
+        ") is not a time in s from 0 to 10 durations and 10^5 of the filter's largest steps, or "
+        "the filter is for another motion: its limits have another number of axes, or it has "
+        "obstacles and the motion is not one of up to three axes, or of a pose.");
+  return is_running(status, dt);
 }
 
 template <class Space>
@@ -137,15 +154,20 @@ void bind_run(py::module_& m) {
   run.def(py::init<const Primitive<Space>&>(), py::arg("dmp"))
       .def(
           "step",
-          [](Run& r, double dt, const std::optional<py::function>& coupling) {
-            return is_running(coupling ? step_coupled<Run, Space>(r, dt, *coupling) : r.step(dt), dt);
+          [](Run& r, double dt, const std::optional<py::function>& coupling, SafetyFilter* filter) {
+            const Status status = coupling ? step_coupled<Run, Space>(r, dt, *coupling, filter)
+                                  : filter ? r.step(dt, *filter)
+                                           : r.step(dt);
+            return filter ? is_running_filtered(r, status, dt) : is_running(status, dt);
           },
-          py::arg("dt"), py::arg("coupling") = py::none(),
+          py::arg("dt"), py::arg("coupling") = py::none(), py::arg("filter") = py::none(),
           "Moves on by dt seconds. True while the motion runs, False when it has finished; raises "
           "FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, "
           "returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where "
           "it "
-          "raises, the run stays as it was.")
+          "raises, the run stays as it was. `filter`, a SafetyFilter, changes where the run is so that "
+          "limits are "
+          "kept and obstacles not touched; status is Status.blocked where they leave no way on.")
       .def(
           "set_tracking_error",
           [](Run& r, double error) {

@@ -60,6 +60,7 @@ PYBIND11_MODULE(_core, m) {
   dmp::python::bind_learning(m);
   dmp::python::bind_cycle(m);
   dmp::python::bind_via(m);
+  dmp::python::bind_safety(m);
   dmp::python::bind_vector_space(m);
   dmp::python::bind_rotation_space(m);
   dmp::python::bind_pose_space(m);

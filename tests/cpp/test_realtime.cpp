@@ -184,6 +184,7 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
       {"forcing", "evaluate evaluate"},
       {"joint_tracker", "angle_error joints limit_excess position_error set_joints track velocity"},
       {"mailbox", "post take"},
+      {"obstacle", "is_obstacle nearness"},
       {"orientation_dmp", "angular_acceleration angular_velocity quaternion rotation"},
       {"phase",
        "advance advance before_end duration end ended increment past_end pause paused reset resume s "
@@ -191,12 +192,13 @@ TEST_CASE("these are the methods that a control loop may call, header by header"
        "set_tracking_error speed speed_rate time x"},
       {"pose_dmp", "acceleration pose position quaternion rotation twist"},
       {"pose_gripper_dmp", "acceleration gripper gripper_velocity pose twist"},
+      {"safety_filter", "changed clear clearance obstacle remove room set set_tracking_error"},
       {"so3", "distance exp exp_quaternion hat left_jacobian left_jacobian_inverse lifted_log log log vee"},
       {"sequence", "current current output part set_goal state step stretch time"},
       {"stepper",
        "ahead amplitude clear_vias duration goal join move_via output pause paused phase reset resume "
        "set_amplitude set_duration set_goal set_tracking_error start_from start_from state status step step "
-       "time via via"}};
+       "step step time via via"}};
   CHECK(found.size() == expected.size());
   for (const auto& [header, names] : expected) {
     CAPTURE(header);

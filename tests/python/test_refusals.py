@@ -350,6 +350,66 @@ ENTRIES["Via.__init__"] = (
     {"phase": 0.5, "point": MODELS["PoseDmp"].start, "velocity": np.ones(6), "reach": 0.2},
 )
 
+OBSTACLE = dmpcpp.Sphere([0.4, 0.1, 0.05], 0.02)
+
+
+def filtered(**limits: Any) -> Any:
+    """Return a run of a pose after steps behind a filter."""
+    run, safe = dmpcpp.PoseRun(MODELS["PoseDmp"]), dmpcpp.SafetyFilter([OBSTACLE], **limits)
+    for _ in range(5):
+        run.step(0.02, filter=safe)
+    return [run, safe]
+
+
+def beside(shape: Any) -> Any:
+    """Return a run of a pose after steps beside an obstacle, the obstacle, and how far away a point is."""
+    run, safe = dmpcpp.PoseRun(MODELS["PoseDmp"]), dmpcpp.SafetyFilter([shape])
+    run.step(0.05, filter=safe)
+    return [run, safe, shape, shape.distance(np.ones(3)), shape.gradient(np.ones(3))]
+
+
+VECTOR = np.array([0.3, 0.2, 0.1])
+SHAPES = {
+    "Sphere": {"center": VECTOR, "radius": 0.1, "velocity": VECTOR},
+    "Box": {"pose": np.eye(4), "half_sizes": VECTOR, "velocity": VECTOR},
+    "Capsule": {"start": VECTOR, "end": -VECTOR, "radius": 0.1, "velocity": VECTOR},
+    "Plane": {"point": -VECTOR, "normal": VECTOR, "velocity": VECTOR},
+}
+for shape, fields in SHAPES.items():
+    made = getattr(dmpcpp, shape)
+    ENTRIES |= {
+        f"{shape}.__init__": (lambda made=made, **values: beside(made(**values)), fields),
+        f"{shape}.distance": (made(**fields).distance, {"points": np.ones((4, 3))}),
+        f"{shape}.gradient": (made(**fields).gradient, {"point": VECTOR}),
+    }
+ENTRIES |= {
+    "SafetyFilter.__init__": (
+        filtered,
+        {
+            "lower": -np.ones(3),
+            "upper": np.ones(3),
+            "velocity": np.ones(3),
+            "acceleration": np.ones(3),
+            "angular_velocity": 1.0,
+            "angular_acceleration": 10.0,
+            "margin": 0.02,
+            "radius": 0.01,
+            "gain": 30.0,
+            "largest_step": 0.01,
+            "room": 4,
+        },
+    ),
+    "SafetyFilter.set": (
+        lambda index: dmpcpp.SafetyFilter().set(index, OBSTACLE),
+        {"index": 1},
+    ),
+    "SafetyFilter.remove": (lambda index: dmpcpp.SafetyFilter().remove(index), {"index": 1}),
+    "SafetyFilter.set_tracking_error": (
+        lambda error: dmpcpp.SafetyFilter().set_tracking_error(error),
+        {"error": 0.01},
+    ),
+}
+
 RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "step": lambda run, value: run.step(value),
     "duration": lambda run, value: setattr(run, "duration", value),

@@ -4,6 +4,7 @@
 #include <dmp/export.hpp>
 #include <dmp/primitive.hpp>
 #include <dmp/realtime.hpp>
+#include <dmp/safety_filter.hpp>
 #include <dmp/status.hpp>
 #include <dmp/via.hpp>
 
@@ -31,6 +32,14 @@ class DMP_EXPORT Stepper {
   Status step(double dt) noexcept DMP_REALTIME;
   /// The same with a coupling term, called in each internal step; see Coupling.
   Status step(double dt, const Coupling<Space>& coupling) noexcept DMP_REALTIME;
+  /// The same behind a filter, which changes where the run is so that limits are kept and obstacles not
+  /// touched; see SafetyFilter. `blocked` where obstacles leave no way on, whether or not the phase has
+  /// ended; invalid_input also for a filter whose limits have another number of axes, for obstacles before a
+  /// motion that has more than three axes, and for more than 10^5 steps of the filter. A change pulls on the
+  /// spring: that distance slows the phase as a tracking error does (DmpOptions::phase_stop). While the tempo
+  /// goes below a tenth the run's own velocity is kept, to go on with.
+  Status step(double dt, SafetyFilter& filter) noexcept DMP_REALTIME;
+  Status step(double dt, const Coupling<Space>& coupling, SafetyFilter& filter) noexcept DMP_REALTIME;
   /// The goal to go to from now on, approached through DmpOptions::goal_filter; before the first step it
   /// counts at once. Refused (invalid_input) for a wrong size, numbers that are not finite, or what is no
   /// rotation (so3::is_rotation; the nearest one is taken) or no pose. Like start_from, it takes no memory

@@ -280,10 +280,38 @@ struct AdaptedRunner {
   double now() const noexcept { return runner.phase().s(); }
 
   Status step(double dt, const Coupling<Space>* coupling = nullptr) noexcept {
+    runner.release();
+    return step_on(dt, coupling);
+  }
+
+  /// The same in pieces, each as the filter lets it be.
+  Status step(double dt, SafetyStep& filter, const Coupling<Space>* coupling = nullptr) noexcept {
+    const double pieces = filter.pieces(dt, runner.phase().duration());
+    if (!runner.takes(dt) || !runner.fits(filter) || pieces > SafetyStep::kMostPieces)
+      return Status::invalid_input;
+    filter.begin_call();
+    if (dt == 0.0) return step_on(dt, coupling);
+    Status status = runner.status();
+    for (int piece = 0; piece < static_cast<int>(pieces) && status != Status::not_finite; ++piece)
+      status = step_filtered(dt / pieces, filter, coupling);
+    return status;
+  }
+
+ private:
+  Status step_on(double dt, const Coupling<Space>* coupling) noexcept {
     if (adaptation.is_stale()) adaptation.aim(runner);
     const Status status = runner.step(dt, coupling);
     if (adaptation.offset().active()) adaptation.follow(runner);
     return status;
+  }
+  Status step_filtered(double dt, SafetyStep& filter, const Coupling<Space>* coupling) noexcept {
+    runner.hold();
+    const Status status = step_on(dt, coupling);
+    if (status == Status::not_finite || status == Status::invalid_input) return status;
+    filter.begin(dt, runner.phase().duration());
+    if (runner.confine(filter)) adaptation.changed(now());
+    filter.end();
+    return filter.blocked() ? runner.block() : status;
   }
 };
 

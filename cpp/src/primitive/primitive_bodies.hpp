@@ -237,6 +237,15 @@ Status Stepper<Space>::step(double dt, const Coupling<Space>& coupling) noexcept
 }
 
 template <class Space>
+Status Stepper<Space>::step(double dt, SafetyFilter& filter) noexcept {
+  return state_->run.step(dt, detail::SafetyAccess::of(filter));
+}
+template <class Space>
+Status Stepper<Space>::step(double dt, const Coupling<Space>& coupling, SafetyFilter& filter) noexcept {
+  return state_->run.step(dt, detail::SafetyAccess::of(filter), &coupling);
+}
+
+template <class Space>
 Status Stepper<Space>::set_goal(PointArgument goal) noexcept {
   if (!detail::Geometry<Space>::accepts(goal, state_->model.start())) return Status::invalid_input;
   const Status status = state_->run.runner.set_goal(goal);

@@ -24,6 +24,13 @@ struct SystemOf<RotationSpace> {
 template <class Space>
 using System = typename SystemOf<Space>::type;
 
+inline Eigen::Index place_axes_of(const VectorSystem& system) noexcept { return system.axes(); }
+inline Eigen::Index place_axes_of(const RotationSystem&) noexcept { return 0; }
+template <class Space>
+Eigen::Index place_axes_of(const ProductSystem<Space>& system) noexcept {
+  return system.place_axes();
+}
+
 /// Two transformation systems in the same steps; their axes lie side by side. The same interface as
 /// VectorSystem.
 template <class Space>
@@ -83,6 +90,19 @@ class ProductSystem {
     second_.displace(by.from(first_.dimension()));
   }
 
+  void hold() noexcept {
+    first_.hold();
+    second_.hold();
+  }
+  bool confine(SafetyStep& filter, Eigen::Index first, bool place, double speed, double& pull) noexcept {
+    const bool one = first_.confine(filter, first, place, speed, pull);
+    const bool other = second_.confine(filter, first + first_.axes(), place && kSecondIsPlace, speed, pull);
+    return one || other;
+  }
+  Eigen::Index axes() const noexcept { return first_.axes() + second_.axes(); }
+  /// Axes of the places that obstacles are for: the first vectors of a motion, and every pose.
+  Eigen::Index place_axes() const noexcept { return place_axes_of(first_); }
+
   typename Space::Output output() const noexcept { return {first_.output(), second_.output()}; }
   typename Space::PointView goal() const noexcept { return P::view(first_.goal(), second_.goal()); }
   typename Space::PointView point() const noexcept { return P::view(first_.point(), second_.point()); }
@@ -92,6 +112,8 @@ class ProductSystem {
   }
 
  private:
+  static constexpr bool kSecondIsPlace = std::is_same_v<Second, PoseSpace>;
+
   System<First> first_;
   System<Second> second_;
 };

@@ -41,7 +41,8 @@ RotationSystem::RotationSystem(const DmpOptions& options, const Ends<RotationSpa
       q_(start_),
       eta_(ends.z),
       e_(ends.displacement),
-      outputs_{q_, Vector3d::Zero(), Vector3d::Zero()} {
+      outputs_{q_, Vector3d::Zero(), Vector3d::Zero()},
+      held_(outputs_) {
   scale_.set(displacement_);
   follow_error();
   if (form_ != OrientationForm::turning) return;
@@ -228,6 +229,27 @@ void RotationSystem::publish() noexcept {
   outputs_.quaternion = q_;
   outputs_.angular_velocity = next_.angular_velocity;
   outputs_.angular_acceleration = next_.angular_acceleration;
+}
+
+void RotationSystem::hold() noexcept { held_ = outputs_; }
+
+// R_out = Exp(Delta) R, and Delta stays: R takes what R_out took, seen from before that turn.
+bool RotationSystem::confine(SafetyStep& filter, Eigen::Index, bool, double speed, double&) noexcept {
+  const Quaterniond wanted = outputs_.quaternion;
+  const Vector3d velocity = outputs_.angular_velocity;
+  const TurnStep step{held_.quaternion, held_.angular_velocity, outputs_.quaternion,
+                      outputs_.angular_velocity, outputs_.angular_acceleration};
+  if (!filter.keep(step)) return false;
+  const Quaterniond back = q_ * wanted.conjugate();
+  const Vector3d turn = so3::log(Quaterniond(outputs_.quaternion * wanted.conjugate()));
+  q_ = so3::exp_quaternion(back * turn) * q_;
+  eta_ += back * Vector3d(outputs_.angular_velocity - velocity) / speed;
+  if (turning_) {
+    turning_->reseat(q_, eta_);
+  } else {
+    follow_goal();
+  }
+  return true;
 }
 
 Eigen::Matrix3d RotationSystem::point() const noexcept {

@@ -43,6 +43,11 @@ class RotationSystem {
   /// Adds an offset to the outputs, its derivatives per s; what moves on stays as it is.
   void displace(const Shift& by) noexcept { OffsetIn<RotationSpace>::displace(outputs_, by); }
 
+  /// As VectorSystem has them.
+  void hold() noexcept;
+  bool confine(SafetyStep& filter, Eigen::Index first, bool place, double speed, double& pull) noexcept;
+  static constexpr Eigen::Index axes() noexcept { return 0; }
+
   RotationSpace::Output output() const noexcept { return outputs_; }
   RotationSpace::PointView goal() const noexcept { return goal_.target().toRotationMatrix(); }
   RotationSpace::PointView point() const noexcept;
@@ -83,6 +88,7 @@ class RotationSystem {
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();  // Exp(p)
   RotationSpace::Outputs next_{};                             // computed, not published yet
   RotationSpace::Outputs outputs_;
+  RotationSpace::Outputs held_;  // where the step began
 };
 
 }  // namespace dmp::detail

@@ -68,6 +68,26 @@ class Runner {
     return status_;
   }
 
+  /// Whether step(dt) would take dt.
+  bool takes(double dt) const noexcept { return dt >= 0.0 && phase_.increment(dt) <= kFarthest; }
+  bool fits(const SafetyStep& filter) const noexcept {
+    return filter.fits(system_.axes(), place_axes_of(system_));
+  }
+  void hold() noexcept { system_.hold(); }
+  /// Lets a filter change where the last step led, whose outputs were held before it; whether it did. A pull
+  /// on the spring is a tracking error, beside the one that is set.
+  bool confine(SafetyStep& filter) noexcept {
+    constexpr double kSlowest = 0.1;  // of the speed: a run that pauses keeps its own velocity
+    double pull = 0.0;
+    const double speed = std::max(phase_.speed(), kSlowest / phase_.duration());
+    const bool changed = system_.confine(filter, 0, true, speed, pull);
+    set_pull(pull);
+    return changed;
+  }
+  /// Behind no filter any more.
+  void release() noexcept { set_pull(0.0); }
+  Status block() noexcept { return status_ = Status::blocked; }
+
   /// Before the first step at once, later through the filter.
   Status set_goal(PointArgument goal) noexcept {
     if (at_start()) {
@@ -103,11 +123,16 @@ class Runner {
     return status_;
   }
   double amplitude() const noexcept { return wanted_amplitude_; }
-  Status set_tracking_error(double error) noexcept { return accepted(phase_.set_tracking_error(error)); }
+  Status set_tracking_error(double error) noexcept {
+    if (!(std::isfinite(error) && error >= 0.0)) return Status::invalid_input;
+    tracking_error_ = error;
+    return accepted(phase_.set_tracking_error(tracking_error_ + pull_));
+  }
   void pause() noexcept { phase_.pause(); }
   void resume() noexcept { phase_.resume(); }
   /// Begins anew at `point` with z, tau times the velocity.
   Status restart(PointArgument point, typename Space::TangentArgument z) noexcept {
+    release();
     phase_.reset();
     system_.begin(point, z);
     choose_forcing();
@@ -151,6 +176,11 @@ class Runner {
     return std::max({options.alpha, *options.orientation_alpha, options.goal_filter});
   }
 
+  void set_pull(double pull) noexcept {
+    if (pull == pull_) return;
+    pull_ = pull;
+    phase_.set_tracking_error(tracking_error_ + pull_);
+  }
   bool at_start() const noexcept { return phase_.time() == 0.0; }
   Status accepted(bool accepted) const noexcept { return accepted ? status_ : Status::invalid_input; }
 
@@ -307,6 +337,8 @@ class Runner {
   bool amplifies_ = false;
   bool plain_ = true;  // the drive is the forcing term, but for its scale
   double largest_step_;
+  double tracking_error_ = 0.0;  // as it was set
+  double pull_ = 0.0;            // what a filter adds to it
   Status status_ = Status::running;
 };
 

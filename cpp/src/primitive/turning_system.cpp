@@ -39,6 +39,13 @@ void TurningSystem::begin(const Quaterniond& rotation, const Vector3d& eta) noex
   p_.begin(p, z);
 }
 
+void TurningSystem::reseat(const Quaterniond& rotation, const Vector3d& eta) noexcept {
+  const TurningReference::State with = reference_.at(phase_);
+  const Vector3d p = so3::lifted_log(Quaterniond(rotation * with.turn.conjugate()), this->p());
+  const Vector3d z = so3::left_jacobian_inverse(p) * (eta - so3::exp_quaternion(p) * with.velocity);
+  p_.reseat(p, z);
+}
+
 void TurningSystem::set_goal(const Quaterniond& goal) noexcept {
   constexpr double kFarthest = 4.0;  // rad
   const Quaterniond turn = goal * last_;

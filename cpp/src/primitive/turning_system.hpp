@@ -21,6 +21,8 @@ class TurningSystem {
   /// eta = tau omega.
   void begin(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
   /// On the branch of the present goal of p; back to the principal one where that leads far around.
+  /// Another state at the present phase, on the branch of p.
+  void reseat(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& eta) noexcept;
   void set_goal(const Eigen::Quaterniond& goal) noexcept;
   void start_with_goal(const Eigen::Quaterniond& goal) noexcept;
   bool unscaled() const noexcept { return p_.unscaled(); }

@@ -1,5 +1,6 @@
 #include "primitive/vector_system.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -31,7 +32,8 @@ VectorSystem::VectorSystem(const DmpOptions& options, const Ends<VectorSpace>& e
       z_(ends.z),
       away_(ends.displacement),
       next_{ends.start, VectorXd::Zero(ends.start.size()), VectorXd::Zero(ends.start.size())},
-      outputs_(next_) {
+      outputs_(next_),
+      held_(next_) {
   scale_.set(ends.displacement);
 }
 
@@ -142,6 +144,35 @@ void VectorSystem::publish() noexcept {
       acceleration[d] = a[d];
     }
   });
+}
+
+void VectorSystem::hold() noexcept {
+  held_.position = outputs_.position;
+  held_.velocity = outputs_.velocity;
+}
+
+void VectorSystem::reseat(VectorSpace::PointArgument y, VectorSpace::TangentArgument z) noexcept {
+  y_ = y;
+  z_ = z;
+}
+
+// The outputs are the own motion and what is displaced; that stays, so the own motion takes the difference.
+bool VectorSystem::confine(SafetyStep& filter, Index first, bool place, double speed, double& pull) noexcept {
+  next_.position = outputs_.position;  // as wanted
+  next_.velocity = outputs_.velocity;
+  const AxesStep step{y_.size(),
+                      held_.position.data(),
+                      held_.velocity.data(),
+                      goal_.target().data(),
+                      outputs_.position.data(),
+                      outputs_.velocity.data(),
+                      outputs_.acceleration.data()};
+  if (!filter.keep(first, place, step)) return false;
+  y_ += outputs_.position - next_.position;
+  next_.velocity = (outputs_.velocity - next_.velocity) / speed;
+  z_ += next_.velocity;
+  pull = std::max(pull, next_.velocity.norm() / (filter.dt() * speed * spring_.stiffness()));
+  return true;
 }
 
 void VectorSystem::velocity(double speed, double* out) const noexcept {

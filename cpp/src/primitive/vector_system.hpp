@@ -9,6 +9,7 @@
 #include "primitive/goal_filter.hpp"
 #include "primitive/offset_space.hpp"
 #include "primitive/spring_damper.hpp"
+#include "safety/safety_step.hpp"
 
 namespace dmp::detail {
 
@@ -46,6 +47,16 @@ class VectorSystem {
   /// Adds an offset to the outputs, its derivatives per s; what moves on stays as it is.
   void displace(const Shift& by) noexcept { OffsetIn<VectorSpace>::displace(outputs_, by); }
 
+  /// Keeps the outputs, for `confine` to know where a step began.
+  void hold() noexcept;
+  /// Lets the filter change the outputs, and what moves on with them while the phase goes at `speed`; whether
+  /// it did. `first`: axes that stand before these; `place`: obstacles are for them. `pull` becomes the
+  /// farthest that the spring would have to be stretched for what the filter changed.
+  bool confine(SafetyStep& filter, Eigen::Index first, bool place, double speed, double& pull) noexcept;
+  /// Another state, on the way to the same goal.
+  void reseat(VectorSpace::PointArgument y, VectorSpace::TangentArgument z) noexcept;
+  Eigen::Index axes() const noexcept { return y_.size(); }
+
   VectorSpace::Output output() const noexcept { return outputs_; }
   VectorSpace::PointView goal() const noexcept { return goal_.target(); }
   VectorSpace::PointView point() const noexcept { return y_; }
@@ -69,6 +80,7 @@ class VectorSystem {
   Eigen::VectorXd away_;       // scratch: goal - start, goal - target
   VectorSpace::Outputs next_;  // computed, not published yet
   VectorSpace::Outputs outputs_;
+  VectorSpace::Outputs held_;  // where the step began
 };
 
 }  // namespace dmp::detail

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Cycle', 'Demand', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'EndPeaks', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'Motion', 'NoiseEstimate', 'NoiseKind', 'OrientationCycle', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'Pace', 'Paced', 'PacedLimit', 'PathFit', 'PathReport', 'PoseCycle', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'Scaling', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'duration_factor', 'fastest_tip', 'find_cycle', 'fit_forcing', 'fit_path', 'frechet', 'from_json', 'largest_demand', 'load', 'paced', 'retimed', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'tip_motion', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Box', 'Capsule', 'Cycle', 'Demand', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'EndPeaks', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'Motion', 'NoiseEstimate', 'NoiseKind', 'OrientationCycle', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'Pace', 'Paced', 'PacedLimit', 'PathFit', 'PathReport', 'Plane', 'PoseCycle', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'SafetyFilter', 'Scaling', 'Sphere', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'duration_factor', 'fastest_tip', 'find_cycle', 'fit_forcing', 'fit_path', 'frechet', 'from_json', 'largest_demand', 'load', 'paced', 'retimed', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'tip_motion', 'to_json']
 class InvalidArgument(ValueError):
     @property
     def argument(self) -> typing.Any:
@@ -677,6 +677,7 @@ class Status(enum.Enum):
     """
     What a call inside the control loop says.
     """
+    blocked: typing.ClassVar[Status]
     finished: typing.ClassVar[Status]
     invalid_input: typing.ClassVar[Status]
     not_finite: typing.ClassVar[Status]
@@ -987,6 +988,191 @@ class Via:
     @property
     def velocity(self) -> numpy.typing.NDArray[numpy.float64] | None:
         ...
+class Sphere:
+    """
+    A ball that a motion must not touch.
+    """
+    def __init__(self, center: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], radius: typing.SupportsFloat | typing.SupportsIndex, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        """
+        center (3,) m; radius m, 0 or more; velocity (3,) m/s, none unless given.
+        """
+    def __repr__(self) -> str:
+        ...
+    def distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        """
+        Distance of points (N, 3) m, or of one (3,), to the surface, m (N,); negative inside.
+        """
+    def gradient(self, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) the unit gradient of the distance at a point (3,) m: the way out.
+        """
+    @property
+    def center(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def radius(self) -> float:
+        """
+        m
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m/s
+        """
+class Box:
+    """
+    A box, turned as it may be.
+    """
+    def __init__(self, pose: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], half_sizes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        """
+        pose (4, 4) of its centre; half_sizes (3,) m along its axes; velocity (3,) m/s.
+        """
+    def __repr__(self) -> str:
+        ...
+    def distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        """
+        Distance of points (N, 3) m, or of one (3,), to the surface, m (N,); negative inside.
+        """
+    def gradient(self, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) the unit gradient of the distance at a point (3,) m: the way out.
+        """
+    @property
+    def half_sizes(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (4, 4)
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m/s
+        """
+class Capsule:
+    """
+    All points within a radius of a line: a link, a person's arm.
+    """
+    def __init__(self, start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], end: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], radius: typing.SupportsFloat | typing.SupportsIndex, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        """
+        start, end (3,) m; radius m, 0 or more; velocity (3,) m/s.
+        """
+    def __repr__(self) -> str:
+        ...
+    def distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        """
+        Distance of points (N, 3) m, or of one (3,), to the surface, m (N,); negative inside.
+        """
+    def gradient(self, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) the unit gradient of the distance at a point (3,) m: the way out.
+        """
+    @property
+    def end(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def radius(self) -> float:
+        """
+        m
+        """
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m/s
+        """
+class Plane:
+    """
+    Everything behind a plane: a table, a wall.
+    """
+    def __init__(self, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], normal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        """
+        point (3,) m on it; normal (3,), of any length, leads to the free side; velocity (3,) m/s.
+        """
+    def __repr__(self) -> str:
+        ...
+    def distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        """
+        Distance of points (N, 3) m, or of one (3,), to the surface, m (N,); negative inside.
+        """
+    def gradient(self, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) the unit gradient of the distance at a point (3,) m: the way out.
+        """
+    @property
+    def normal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,)
+        """
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) m/s
+        """
+class SafetyFilter:
+    """
+    Keeps limits and stays clear of obstacles behind a run: run.step(dt, filter=filter). Limits are never exceeded, an obstacle that stands still is never touched, where the motion begins within the limits with room to stop; where nothing else is left the motion brakes and run.status is Status.blocked.
+    """
+    def __copy__(self) -> SafetyFilter:
+        ...
+    def __deepcopy__(self, memo: dict) -> SafetyFilter:
+        ...
+    def __init__(self, obstacles: collections.abc.Sequence[Sphere | Box | Capsule | Plane] = (), *, lower: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, upper: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, angular_velocity: typing.SupportsFloat | typing.SupportsIndex = ..., angular_acceleration: typing.SupportsFloat | typing.SupportsIndex = ..., margin: typing.SupportsFloat | typing.SupportsIndex = 0.01, radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, gain: typing.SupportsFloat | typing.SupportsIndex = 30.0, largest_step: typing.SupportsFloat | typing.SupportsIndex = 0.01, slide: bool = True, room: typing.SupportsInt | typing.SupportsIndex = 8) -> None:
+        """
+        obstacles: Sphere, Box, Capsule or Plane, each. lower, upper, velocity, acceleration (axes,): limits of every axis (of a pose those of its position), inf for none. angular_velocity, angular_acceleration: of their norms, rad/s and rad/s^2. margin: what is kept from obstacles, m, above 0. radius: of the tool, m. gain: how late the motion gives way, 1 to 100 per duration. largest_step: steps are divided so that none is longer, s. slide: pushes along the surface of what lies straight ahead. room: obstacles that fit in at once, 1 to 256.
+        """
+    def __repr__(self) -> str:
+        ...
+    def clear(self) -> None:
+        """
+        Removes all obstacles.
+        """
+    def remove(self, index: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    def set(self, index: typing.SupportsInt | typing.SupportsIndex, obstacle: Sphere | Box | Capsule | Plane) -> None:
+        """
+        The obstacle of a number, 0 to room - 1, as it is now.
+        """
+    def set_tracking_error(self, error: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        How far the robot may be from where it should be, m: kept from obstacles in addition to the margin.
+        """
+    @property
+    def changed(self) -> bool:
+        """
+        whether the last step changed the motion
+        """
+    @property
+    def clearance(self) -> float:
+        """
+        least distance from the tool to an obstacle after the last step, m
+        """
+    @property
+    def obstacles(self) -> list:
+        """
+        a list of `room`: each where it has been carried to, None where there is none
+        """
+    @property
+    def room(self) -> int:
+        """
+        how many obstacles fit in at once
+        """
 class DmpParameters:
     """
     All that a Dmp is: what a model file holds. Fields as keywords.
@@ -1260,9 +1446,9 @@ class Run:
         """
         Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None, filter: SafetyFilter = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was. `filter`, a SafetyFilter, changes where the run is so that limits are kept and obstacles not touched; status is Status.blocked where they leave no way on.
         """
     def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
         """
@@ -1699,9 +1885,9 @@ class OrientationRun:
         """
         Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None, filter: SafetyFilter = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was. `filter`, a SafetyFilter, changes where the run is so that limits are kept and obstacles not touched; status is Status.blocked where they leave no way on.
         """
     def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
         """
@@ -2138,9 +2324,9 @@ class PoseRun:
         """
         Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None, filter: SafetyFilter = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was. `filter`, a SafetyFilter, changes where the run is so that limits are kept and obstacles not touched; status is Status.blocked where they leave no way on.
         """
     def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
         """
@@ -2681,9 +2867,9 @@ class PoseGripperRun:
         """
         Begins anew, from any point and velocity with no acceleration, and comes onto the learned motion within `reach`, a part of the phase: nothing jumps, and behind it nothing is changed.
         """
-    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None) -> bool:
+    def step(self, dt: typing.SupportsFloat | typing.SupportsIndex, coupling: collections.abc.Callable | None = None, filter: SafetyFilter = None) -> bool:
         """
-        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was.
+        Moves on by dt seconds. True while the motion runs, False when it has finished; raises FloatingPointError when the state is not finite. `coupling(state)`, called in each internal step, returns what is added to the forcing term (d,): an acceleration divided by state.speed**2. Where it raises, the run stays as it was. `filter`, a SafetyFilter, changes where the run is so that limits are kept and obstacles not touched; status is Status.blocked where they leave no way on.
         """
     def via(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, reach: typing.SupportsFloat | typing.SupportsIndex | tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = 0.2) -> Status:
         """
