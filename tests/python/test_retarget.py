@@ -200,6 +200,30 @@ def test_the_same_seed_finds_the_same_placement(arm):
     assert (first.scale, first.yaw, first.note) == (second.scale, second.yaw, second.note)
 
 
+def test_a_motion_stands_in_front_of_the_arm_unless_told_otherwise(arm):
+    punch = recordings.clip("punch")
+    aside = place(punch, arm, candidates=300, in_front=False)
+    front = place(punch, arm, candidates=300)
+    away, near = (abs(np.arctan2(p.position[1], p.position[0])) for p in (aside, front))
+    assert near < 1e-9 or near <= 0.76 * away  # all of the way, or as much of it as the first joint lets
+    assert np.linalg.norm(front.position[:2]) == pytest.approx(np.linalg.norm(aside.position[:2]), rel=1e-12)
+    assert front.position[2] == aside.position[2] and front.scale == aside.scale
+    assert follow(arm, front, punch, 0.02)[1].report.complete
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.5])
+def test_the_tool_is_turned_in_the_hand_by_no_more_than_stated(arm, tilt):
+    punch = recordings.clip("punch")
+    placement = place(punch, arm, candidates=1000, tool_tilt=tilt)
+    assert Rotation.from_matrix(placement.tool_rotation).magnitude() <= tilt + 1e-9
+    assert follow(arm, placement, punch, 0.02)[1].report.complete
+
+
+def test_a_tilt_that_is_no_angle_is_refused(arm):
+    with pytest.raises(InvalidArgument, match="tool_tilt: -0.1, expected an angle"):
+        place(swing(), arm, tool_tilt=-0.1)
+
+
 def test_a_motion_too_large_for_the_arm_is_refused_with_the_share_it_carries(arm):
     with pytest.raises(
         InvalidArgument,

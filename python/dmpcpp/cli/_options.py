@@ -106,6 +106,18 @@ def placing_options(command: Callable[..., None]) -> Callable[..., None]:
             help="Scale of positions, or its range (default: 0.25:1; smaller if none is feasible).",
         ),
         click.option(
+            "--in-front/--no-in-front",
+            default=True,
+            show_default=True,
+            help="Place the motion in front of the arm (x of its base), as far as joints and contacts let it.",
+        ),
+        click.option(
+            "--tool-tilt",
+            type=click.FloatRange(0.0),
+            metavar="DEG",
+            help="How far the tool may be turned in the hand (default: any rotation).",
+        ),
+        click.option(
             "--anchor-start",
             metavar=_POSE,
             help="Start point of the motion [m, arm's base frame]; with a rotation vector [deg] also the tool's "
@@ -134,12 +146,18 @@ def taken_placing(options: dict[str, Any]) -> dict[str, Any]:
     if no_place and options["scale"]:
         raise InvalidArgument("--scale: not together with --no-place, which takes the poses as they are.")
     scale = scale_range(options.pop("scale"))
+    in_front, tilt = options.pop("in_front"), options.pop("tool_tilt")
     given = {name: options.pop(name) for name in (*_ANCHORS, "shoulder", "yaw", "tool_rotation")}
     given = {name: value for name, value in given.items() if value is not None}
     _consistent(given, no_place)
     anchor = next((name for name in _ANCHORS if name in given), None)
-    if anchor is None:
+    if tilt is not None and (no_place or anchor):
+        raise InvalidArgument("--tool-tilt: of a placement that is searched; not with --no-place or an anchor.")
+    if anchor is None and (no_place or (in_front and tilt is None)):
         return {"place": not no_place, "scale": scale}
+    if anchor is None:
+        tool = {} if tilt is None else {"tool_tilt": tilt}
+        return {"place": partial(_placed, scale, options["seed"], in_front=in_front, **tool)}
     return {"place": _anchored(anchor, given, scale or _SCALE, options["seed"])}
 
 
@@ -176,6 +194,17 @@ def _anchored(anchor: str, given: dict[str, Any], scale: tuple[float, float], se
         tool = Rotation.from_rotvec(_numbers("tool_rotation", tool, 3), degrees=True).as_matrix()
     yaw = np.radians(given["yaw"]) if "yaw" in given else None
     return partial(_searched, anchor, at=at, on=on, scale=scale, yaw=yaw, tool_rotation=tool, seed=seed)
+
+
+def _placed(scale: tuple[float, float] | None, seed: int, recording: Any, arm: Any, **how: Any) -> Any:
+    """Return a placement that is searched in a way of the user's; angles in deg."""
+    import numpy as np
+
+    from dmpcpp.planning import place
+
+    if "tool_tilt" in how:
+        how["tool_tilt"] = np.radians(how["tool_tilt"])
+    return place(recording, arm, seed, scale=scale, **how)
 
 
 def _searched(anchor: str, *recording_and_arm: Any, **how: Any) -> Any:

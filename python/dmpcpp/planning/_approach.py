@@ -39,13 +39,17 @@ def approached(
     random: np.random.Generator,
     scale: tuple[float, float],
     changes: int,
+    tilt: float = np.pi,
 ) -> tuple[Placement, float]:
-    """Return the placement after small random changes of which each missed less than the last, and what it misses."""
+    """Return the placement after small random changes of which each missed less than the last, and what it misses.
+
+    `tilt` is how far the tool may be turned in the hand [rad].
+    """
     least, step = miss(placement), 1.0
     for _ in range(changes):
         if least <= 0.0:
             break
-        other = neighbour(placement, random, step, scale)
+        other = neighbour(placement, random, step, scale, tilt)
         missed = miss(other)
         step = float(np.clip(step * (_LONGER if missed < least else _SHORTER), *_STEPS))
         if missed < least:

@@ -154,7 +154,7 @@ def solve(
         What `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An incomplete path does not raise: see
         `joints.report.complete`.
     """
-    policy, allowed = taken_policy(tempo), taken_tolerance(tolerance)
+    policy, allowed, follow = taken_policy(tempo), taken_tolerance(tolerance), Follow.of(follow)
     wanted = model.duration if duration is None else duration
     dt = wanted / max(_SAMPLES, _SAMPLES_PER_KERNEL * _kernels(model))
     learned = _rolled_out(model, goal, wanted, dt, via)

@@ -22,11 +22,12 @@ from dmpcpp._core import Arm, InverseKinematics, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._approach import approached, missed_by
-from dmpcpp.planning._candidates import drawn_through, far_apart, middle_of, neighbour
+from dmpcpp.planning._candidates import about_base, drawn_through, far_apart, middle_of, neighbour
 from dmpcpp.planning._clearance import clear_of_itself, require_free_postures
-from dmpcpp.planning._joints import Engine, limit_factor
+from dmpcpp.planning._joints import Engine
 from dmpcpp.planning._placement import EFFORT, Accept, Placement, to_follow
 from dmpcpp.planning._shortfall import Shortfall
+from dmpcpp.planning._tempo import paced_slowdown
 from dmpcpp.recordings import Recording
 from dmpcpp.robot import Follow, farthest_reach, following, random_postures
 from dmpcpp.simulation import default_simulator
@@ -46,6 +47,8 @@ _NEAR, _CHANGED = 300, 6  # random candidates if none is carried, and those of t
 _CHANGES = 300  # small ones of each, at most
 _IMPROVEMENTS = 300  # small changes tried on the best one; fewer on a long path:
 _IMPROVING_POSES = 100_000  # that are followed meanwhile, about
+_IN_FRONT = (1.0, 0.75, 0.5, 0.25)  # shares of the way to the front that are tried
+_AS_GOOD = 0.8  # of a placement's worth that a place in front of the arm may cost
 _FULL_MARGIN = 0.2  # rad; joint limits further away than this are no worry
 
 
@@ -59,6 +62,8 @@ def place(
     candidates: int = 3000,
     accept: Accept | None = None,
     follow: str | Follow | None = None,
+    in_front: bool = True,
+    tool_tilt: float = np.pi,
 ) -> Placement:
     """Search a placement of the whole motion in an arm's workspace; the same seed gives the same placement.
 
@@ -71,8 +76,8 @@ def place(
     seed : int
         Of the random candidates.
     scale : (float, float), optional
-        Smallest and largest scale of positions. Larger ones are preferred, as far as the joints keep away
-        from their limits and need not be slowed down out of proportion. Unless given 0.25 to 1, and where nothing is
+        Smallest and largest scale of positions. Preferred is what lets the tip go fastest, joints away from their
+        limits: scale over slowdown. Unless given 0.25 to 1, and where nothing is
         carried so, smaller ones down to where the motion is as large as 15 % of the arm's reach.
     floor : float, optional
         Lowest allowed tip height above the base [m]; leave room for what the tip carries. Not the ground of
@@ -84,6 +89,11 @@ def place(
     follow : str, optional
         "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
         than six joints needs it.
+    in_front : bool
+        Turn the placement about the base's z axis to where its middle lies in front of the arm (x of the base), or as
+        near to it as joints and contacts let it.
+    tool_tilt : float
+        How far the tool may be turned in the hand [rad]; any rotation by default, 0 for the axes of the hand.
 
     Returns
     -------
@@ -100,7 +110,9 @@ def place(
         raise InvalidArgument(f"scale: {scale}, expected (smallest, largest) with 0 < smallest <= largest.")
     if candidates < 1:
         raise InvalidArgument(f"candidates: {candidates}, expected at least 1.")
-    search = _Search(recording, arm, floor, accept, following(arm, follow))
+    if not 0.0 <= tool_tilt < np.inf:
+        raise InvalidArgument(f"tool_tilt: {tool_tilt}, expected an angle in rad of at least 0.")
+    search = _Search(recording, arm, floor, accept, following(arm, follow), tool_tilt)
     random = np.random.default_rng(seed)
     found, used = [], (0.0, 0.0)
     for used, count in _attempts(scale, search.smallest_scale, candidates):
@@ -113,6 +125,7 @@ def place(
             f"{used[0]:.2g} to {used[1]:.2g}; {search.shortfall()}"
         )
     best = search.improved(max(found, key=lambda carried: carried.worth), random, used)
+    best = search.in_front(best) if in_front else best
     followed = "" if len(search.time) >= len(recording) else f" (followed at {len(search.time)})"
     note = f"carries all {len(recording)} samples{followed}, {best.summary} ({candidates} candidates, seed {seed})"
     return replace(best.placement, note=note)
@@ -168,13 +181,13 @@ class _Carried:
 
     placement: Placement
     limit_margin: float  # rad, smallest distance from a joint limit
-    slowdown: float  # factor on the duration that the limits of joint velocity and acceleration ask for
+    slowdown: float  # of the duration, where limits of velocity and acceleration bind
 
     @property
     def worth(self) -> float:
         """Larger is better: size, damped by joints close to their limits and by the time it takes."""
         margin = min(1.0, 0.05 + self.limit_margin / _FULL_MARGIN)
-        return self.placement.scale * margin / np.sqrt(max(1.0, self.slowdown))
+        return self.placement.scale * margin / max(1.0, self.slowdown)
 
     @property
     def summary(self) -> str:
@@ -185,7 +198,13 @@ class _Search:
     """One motion and one arm, and the placements found so far."""
 
     def __init__(
-        self, recording: Recording, arm: Arm, floor: float | None, accept: Accept | None, follow: Follow
+        self,
+        recording: Recording,
+        arm: Arm,
+        floor: float | None,
+        accept: Accept | None,
+        follow: Follow,
+        tool_tilt: float,
     ) -> None:
         self.recorded = recording.time
         recording = to_follow(recording)
@@ -199,7 +218,7 @@ class _Search:
         self.floor = min(_FLOOR, _FLOOR_SHARE * reach) if floor is None else floor
         size = float(np.linalg.norm(np.ptp(recording.position, axis=0)))
         self.smallest_scale = _SMALLEST_SHARE * reach / size if np.isfinite(reach) and size > 0.0 else np.inf
-        self.accept, self.follow = accept, follow
+        self.accept, self.follow, self.tilt = accept, follow, tool_tilt
         self.solver = InverseKinematics(arm, weight=follow.weight)
         # Poses out of reach would spend all of the default's iterations, and most candidates have some.
         self.quick_solver = InverseKinematics(arm, weight=follow.weight, iteration_limit=150, diagnose=False)
@@ -209,7 +228,9 @@ class _Search:
     def promising(self, random: np.random.Generator, scale: tuple[float, float], count: int) -> list[Placement]:
         """Return the largest candidates of which every coarse pose can be solved, the largest first."""
         reach = self._reach(random)
-        candidates = list(drawn_through(self.poses[self.coarse[0]], self.free, self.arm, random, scale, count))
+        candidates = list(
+            drawn_through(self.poses[self.coarse[0]], self.free, self.arm, random, scale, count, self.tilt)
+        )
         shares = [self._share_near(placement, *reach) for placement in candidates]
         self.closest = candidates[int(np.argmax(shares))]
         within = [placement for placement, share in zip(candidates, shares, strict=True) if share == 1.0]
@@ -226,12 +247,12 @@ class _Search:
         if self.most is not None and self.most.share == 1.0:
             return
         middle, reach = self.poses[self.coarse[0]], self._reach(random)
-        drawn = drawn_through(middle, self.free, self.arm, random, scale, _NEAR)
+        drawn = drawn_through(middle, self.free, self.arm, random, scale, _NEAR, self.tilt)
         within_reach = [placement for placement in drawn if self._share_near(placement, *reach) == 1.0]
         for placement in sorted(within_reach, key=self._missed)[:_CHANGED]:
-            within, missed = approached(placement, self._missed, random, scale, _CHANGES)
+            within, missed = approached(placement, self._missed, random, scale, _CHANGES, self.tilt)
             if missed <= 0.0:
-                yield approached(within, self._missed_on_the_way, random, scale, _CHANGES)[0]
+                yield approached(within, self._missed_on_the_way, random, scale, _CHANGES, self.tilt)[0]
 
     def carried(self, promising: Iterable[Placement]) -> list[_Carried]:
         """Follow one after the other until enough are carried from end to end and accepted."""
@@ -248,12 +269,31 @@ class _Search:
     def improved(self, best: _Carried, random: np.random.Generator, scale: tuple[float, float]) -> _Carried:
         """Return the best after small random changes, growing smaller."""
         for step in np.geomspace(1.0, 0.1, min(_IMPROVEMENTS, 1 + _IMPROVING_POSES // len(self.poses))):
-            placement = neighbour(best.placement, random, step, scale)
+            placement = neighbour(best.placement, random, step, scale, self.tilt)
             nearby = placement.start + random.normal(0.0, 0.2 * step, self.arm.joint_count)
             held = self.solver.solve(placement.apply(self.poses[0]), nearby)
             if held.ok and self._above_floor(placement):
                 best = self._carry(placement, held.joints, better_than=best.worth) or best
         return best
+
+    def in_front(self, best: _Carried) -> _Carried:
+        """Return it turned about the base's vertical axis to the front, or as far as it is carried about as well."""
+        away = -float(np.arctan2(best.placement.position[1], best.placement.position[0]))
+        turning = self.arm.jacobian(best.placement.start)[5, 0]  # of the first joint about the vertical: +1 or -1
+        for share in _IN_FRONT:
+            placement = about_base(best.placement, share * away)
+            start = np.array(best.placement.start)
+            start[0] = self._within_limits(start[0] + share * away * np.rint(turning))
+            held = self.solver.solve(placement.apply(self.poses[0]), start)
+            found = self._carry(placement, held.joints, better_than=_AS_GOOD * best.worth) if held.ok else None
+            if found:
+                return found
+        return best
+
+    def _within_limits(self, angle: float) -> float:
+        """Return an angle of the first joint, or the same a turn away, within its limits where there is one."""
+        lower, upper = self.arm.lower[0], self.arm.upper[0]
+        return next((a for a in (angle, angle - 2 * np.pi, angle + 2 * np.pi) if lower <= a <= upper), lower)
 
     def shortfall(self) -> str:
         """Return what the best placement lacks and what to do about it, for an error."""
@@ -320,7 +360,7 @@ class _Search:
             joints = otherwise
         report = joints.report
         placement = replace(placement, start=start)
-        slowdown = limit_factor(self.arm, joints)
+        slowdown = paced_slowdown(self.arm, joints)
         carried = _Carried(placement, report.limit_margin, slowdown)
         if not report.complete or carried.worth <= better_than:
             return None

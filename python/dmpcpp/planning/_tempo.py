@@ -30,6 +30,7 @@ __all__ = [
     "demand_of",
     "held_effort",
     "on_pace",
+    "paced_slowdown",
     "taken_policy",
     "tempo_check",
 ]
@@ -204,6 +205,12 @@ def on_pace(
         return _fastest(arm, joints, limits, demand)
     found = paced(joints, **limits)
     return found.joints, Tempo(policy, joints.time, found.pace, demand)
+
+
+def paced_slowdown(arm: Arm, joints: JointTrajectory) -> float:
+    """Return the duration over the wanted one, slower only where limits of velocity and acceleration bind."""
+    time = paced(joints, arm.velocity_limit / RESERVE, arm.acceleration_limit / RESERVE**2).pace.time
+    return float((time[-1] - time[0]) / (joints.time[-1] - joints.time[0]))
 
 
 def demand_of(arm: Arm, joints: JointTrajectory, torque_share: float | None) -> Demand:
