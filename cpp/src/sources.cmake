@@ -15,6 +15,10 @@ set(DMP_core_SOURCES
   primitive/basis.cpp
   primitive/cycle.cpp
   primitive/cycle_phase.cpp
+  primitive/control_points.cpp
+  primitive/distribution.cpp
+  primitive/distribution_checks.cpp
+  primitive/distribution_fit.cpp
   primitive/dmp.cpp
   primitive/find_cycle.cpp
   primitive/fit_report.cpp
@@ -40,6 +44,7 @@ set(DMP_core_SOURCES
   primitive/turning_system.cpp
   primitive/vector_space.cpp
   primitive/vector_system.cpp
+  primitive/weight_gaussian.cpp
   safety/braking.cpp
   safety/half_spaces.cpp
   safety/obstacle.cpp

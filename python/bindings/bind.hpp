@@ -20,6 +20,7 @@ void bind_joint_tracker(pybind11::module_& m);
 void bind_cycle(pybind11::module_& m);
 void bind_via(pybind11::module_& m);
 void bind_safety(pybind11::module_& m);
+void bind_given(pybind11::module_& m);
 void bind_timing(pybind11::module_& m);
 
 }  // namespace dmp::python

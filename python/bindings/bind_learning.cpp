@@ -51,6 +51,16 @@ void bind_spread(py::module_& m) {
       .def_property_readonly(
           "covariance", [](const PoseSpread& s) { return stacked(s.covariance); },
           "(K, 6, 6) of position [m] and rotation vector from the mean [rad, world frame]");
+  using OrientationSpread = SpreadOf<RotationSpace>;
+  py::class_<OrientationSpread>(m, "OrientationSpread",
+                                "Where demonstrations of one motion lie over the phase, for orientations.")
+      .def_property_readonly(
+          "phase", [](const OrientationSpread& s) { return shown(s.phase); }, "(K,) 0 to 1")
+      .def_property_readonly(
+          "mean", [](const OrientationSpread& s) { return shown(s.mean); }, "(K, 3, 3)")
+      .def_property_readonly(
+          "covariance", [](const OrientationSpread& s) { return stacked(s.covariance); },
+          "(K, 3, 3) of the rotation vector from the mean [rad, world frame]");
   const char* const doc =
       "Mean and covariance of demonstrations at `count` even phases. Raises InvalidArgument for none, or for "
       "different "

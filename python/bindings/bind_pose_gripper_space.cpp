@@ -21,6 +21,7 @@ struct InPython<PoseGripperSpace> {
       "Begins anew at (pose, gripper) with velocity (6 + k,): twist, gripper per s.",
       "paths",
       "a tuple (poses (M, T, 4, 4), grippers (M, T, k))"};
+  static constexpr const char* distribution = "PoseGripperDistribution";
   using Pose = InPython<PoseSpace>;
   using Gripper = InPython<VectorSpace>;
   using Given = std::pair<Array, Array>;

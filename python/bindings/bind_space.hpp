@@ -20,6 +20,7 @@
 
 #include "adaptation.hpp"
 #include "arrays.hpp"
+#include "distributions.hpp"
 #include "loop.hpp"
 #include "options.hpp"
 #include "sequences.hpp"
@@ -485,6 +486,7 @@ void bind_space(py::module_& m) {
   bind_run_state<Space>(m);
   bind_run<Space, Run>(m);
   bind_sequence<Space>(m);
+  bind_distribution<Space>(m);
 }
 
 }  // namespace dmp::python

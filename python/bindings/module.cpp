@@ -61,6 +61,7 @@ PYBIND11_MODULE(_core, m) {
   dmp::python::bind_cycle(m);
   dmp::python::bind_via(m);
   dmp::python::bind_safety(m);
+  dmp::python::bind_given(m);
   dmp::python::bind_vector_space(m);
   dmp::python::bind_rotation_space(m);
   dmp::python::bind_pose_space(m);

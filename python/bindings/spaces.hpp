@@ -34,8 +34,9 @@ struct Naming {
   const char* paths_shape;
 };
 
-/// `naming`; Given, what Python passes for a point; to_point, to_paths, to_goals; and the columns of a
-/// trajectory: visit(name, member, doc) with the doc of shape (T, ...).
+/// `naming`; `distribution`, the name of that class; Given, what Python passes for a point; to_point,
+/// to_paths, to_goals; and the columns of a trajectory: visit(name, member, doc) with the doc of shape (T,
+/// ...).
 template <class Space>
 struct InPython;
 
@@ -68,6 +69,7 @@ struct InPython<VectorSpace> {
                                  "Begins anew at position (d,) with velocity (d,) per s.",
                                  "positions",
                                  "(M, T, d)"};
+  static constexpr const char* distribution = "DmpDistribution";
   using Given = Array;
   static Eigen::VectorXd to_point(const Array& array, const std::string& name) {
     return to_vector(array, name);
@@ -116,6 +118,7 @@ struct InPython<RotationSpace> {
       "Begins anew at rotation (3, 3) with angular velocity (3,) rad/s, world frame.",
       "rotations",
       "(M, T, 3, 3)"};
+  static constexpr const char* distribution = "OrientationDistribution";
   using Given = Array;
   static Eigen::Matrix3d to_point(const Array& array, const std::string& name) {
     return to_rotation(array, name);
@@ -162,6 +165,7 @@ struct InPython<PoseSpace> {
                                  "Begins anew at pose (4, 4) with twist (6,) m/s, rad/s.",
                                  "poses",
                                  "(M, T, 4, 4)"};
+  static constexpr const char* distribution = "PoseDistribution";
   using Given = Array;
   static Eigen::Matrix4d to_point(const Array& array, const std::string& name) {
     return to_pose(array, name);

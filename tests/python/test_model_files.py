@@ -13,7 +13,9 @@ from dmpcpp import InvalidArgument
 
 FOLDER = Path(__file__).parents[1] / "data" / "models"
 SEQUENCES = sorted(FOLDER.glob("v*/*_sequence.json"))
-GOLDEN = sorted(path for path in FOLDER.glob("v*/*.json") if path.name != "motions.json" and path not in SEQUENCES)
+DISTRIBUTIONS = sorted(FOLDER.glob("v*/*_distribution.json"))
+OTHERS = {*SEQUENCES, *DISTRIBUTIONS, *FOLDER.glob("v*/motions.json")}
+GOLDEN = sorted(path for path in FOLDER.glob("v*/*.json") if path not in OTHERS)
 SCHEMA = (Path(__file__).parents[2] / "docs" / "model-file.md").read_text()
 
 
@@ -51,6 +53,14 @@ def test_a_golden_sequence_loads_bit_for_bit_and_means_the_motion_it_always_mean
     np.testing.assert_allclose(moved, expected, rtol=0, atol=1e-8)
 
 
+@pytest.mark.parametrize("path", DISTRIBUTIONS, ids=names(DISTRIBUTIONS))
+def test_a_golden_distribution_loads_bit_for_bit_and_means_what_it_always_meant(path):
+    loaded = dmpcpp.load(path)
+    assert dmpcpp.to_json(loaded) == path.read_text()
+    expected = json.loads((path.parent / "motions.json").read_text())[path.stem]
+    np.testing.assert_allclose(loaded.sample(seed=1, samples=9).pose, expected, rtol=0, atol=1e-9)
+
+
 def test_every_enumerator_stands_in_a_golden_file_and_in_the_schema():
     text = "".join(path.read_text() for path in GOLDEN)
     enums = ("Kernels", "Regression", "Scaling", "OrientationForm", "LogBranch", "Derivatives", "Start", "Integrator")
@@ -71,7 +81,7 @@ def test_an_unknown_newer_version_is_refused_with_the_reason(tmp_path):
     text = GOLDEN[0].read_text()
     newer = tmp_path / "newer.json"
     newer.write_text(re.sub(r'"version": \d+', '"version": 1000', text, count=1))
-    with pytest.raises(InvalidArgument, match=r"newer\.json: version: 1000, expected 1 to 3\..*newer dmpcpp: update"):
+    with pytest.raises(InvalidArgument, match=r"newer\.json: version: 1000, expected 1 to 4\..*newer dmpcpp: update"):
         dmpcpp.load(newer)
 
 

@@ -410,6 +410,67 @@ ENTRIES |= {
     ),
 }
 
+
+def takes_of(kind: str) -> list[Any]:
+    """Return three demonstrations that differ a little."""
+    waves = [0.1 * j * np.sin(3 * TIME) for j in range(3)]
+    positions = [np.c_[TIME + wave, wave, TIME**2] for wave in waves]
+    rotations = [np.array([dmpcpp.so3.exp([t, w, 0.0]) for t, w in zip(TIME, wave, strict=True)]) for wave in waves]
+    poses = [np.tile(np.eye(4), (len(TIME), 1, 1)) for _ in waves]
+    for pose, position, rotation in zip(poses, positions, rotations, strict=True):
+        pose[:, :3, 3], pose[:, :3, :3] = position, rotation
+    if kind == "Dmp":
+        return [dmpcpp.Demonstration(TIME, position) for position in positions]
+    if kind == "OrientationDmp":
+        return [dmpcpp.OrientationDemonstration(TIME, rotation) for rotation in rotations]
+    if kind == "PoseGripperDmp":
+        return [dmpcpp.PoseGripperDemonstration(TIME, pose, wave) for pose, wave in zip(poses, waves, strict=True)]
+    return [dmpcpp.PoseDemonstration(TIME, pose) for pose in poses]
+
+
+def distribution_entries(kind: str) -> dict[str, Entry]:
+    """The calls of a distribution of one kind."""
+    name = "DmpDistribution" if kind == "Dmp" else kind.replace("Dmp", "Distribution")
+    takes = takes_of(kind)
+    one = getattr(dmpcpp, name).fit(takes)
+    parts = 3 if kind == "PoseGripperDmp" else 2 if kind == "PoseDmp" else 1
+    d = one.dimension
+    return {
+        f"{name}.fit": (
+            lambda **values: type(one).fit(takes, **values).rollout(3),
+            {"control_points": 6, "prior": 4.0, "iterations": 2},
+        ),
+        f"{name}.continued": (
+            lambda **values: one.continued(takes[0], **values).rollout(3),
+            {"duration": takes[0].duration, "phase": 0.0, "noise": np.full(parts, 0.01)},
+        ),
+        f"{name}.rollout": (one.rollout, {"samples": 5}),
+        f"{name}.sample": (one.sample, {"seed": 3, "samples": 5}),
+        f"{name}.observation_covariance": (one.observation_covariance, {"phase": 0.3}),
+        f"{name}.stiffness": (one.stiffness, {"phase": 0.3, "most": np.full(d, 9.0), "spread": np.full(d, 0.1)}),
+        **({} if kind == "PoseGripperDmp" else {f"{name}.spread": (one.spread, {"count": 4})}),
+    }
+
+
+for kind in (*MODELS, "PoseGripperDmp"):
+    ENTRIES |= distribution_entries(kind)
+SPREAD = dmpcpp.PoseDistribution.fit(takes_of("PoseDmp"))
+ENTRIES["Given.__init__"] = (
+    lambda **values: SPREAD.condition([dmpcpp.Given(**values)]).rollout(5),
+    {
+        "phase": 0.4,
+        "point": SPREAD.rollout(3).pose[1],
+        "velocity": np.ones(6),
+        "covariance": 0.01 * np.eye(6),
+        "velocity_covariance": 0.01 * np.eye(6),
+    },
+)
+ENTRIES["damping_of"] = (dmpcpp.damping_of, {"stiffness": np.eye(3), "zeta": 0.7})
+ENTRIES["blend"] = (
+    lambda weights: dmpcpp.blend([SPREAD, SPREAD], weights).rollout(3),
+    {"weights": np.array([0.5, 0.5])},
+)
+
 RUN_CALLS: dict[str, Callable[[Any, Any], Any]] = {
     "step": lambda run, value: run.step(value),
     "duration": lambda run, value: setattr(run, "duration", value),
@@ -430,6 +491,8 @@ for name in ("__init__", "rollout", "rollout_at"):
 for name in ("__init__", "step", "set_goal", "stretch"):
     NO_NUMBERS.add(f"PoseGripperDmpSequenceRun.{name}")
 NO_NUMBERS |= {f"{kind}SequenceRun.__init__" for kind in MODELS}
+for kind in ("DmpDistribution", "OrientationDistribution", "PoseDistribution", "PoseGripperDistribution"):
+    NO_NUMBERS |= {f"{kind}.{name}" for name in ("condition", "distance", "mean", "log_likelihood")}
 for kind in (*MODELS, "PoseGripperDmp"):
     NO_NUMBERS |= {f"{kind}.__init__", f"{kind}.targets", f"{kind}.with_scaling", f"{kind}Parameters.__init__"}
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dmp/distribution.hpp>
 #include <dmp/dmp.hpp>
 #include <dmp/export.hpp>
 #include <dmp/orientation_dmp.hpp>
@@ -14,7 +15,8 @@
 namespace dmp {
 
 using Model = std::variant<Dmp, OrientationDmp, PoseDmp, PoseGripperDmp, DmpSequence, OrientationDmpSequence,
-                           PoseDmpSequence, PoseGripperDmpSequence>;
+                           PoseDmpSequence, PoseGripperDmpSequence, DmpDistribution, OrientationDistribution,
+                           PoseDistribution, PoseGripperDistribution>;
 
 /// Throws InvalidArgument for a model that from_json would refuse for its size.
 DMP_EXPORT std::string to_json(const Model& model);

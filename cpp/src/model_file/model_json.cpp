@@ -37,10 +37,20 @@ constexpr const char* kind_of<PoseDmpSequence> = "pose_dmp_sequence";
 template <>
 constexpr const char* kind_of<PoseGripperDmpSequence> = "pose_gripper_dmp_sequence";
 
+template <>
+constexpr const char* kind_of<DmpDistribution> = "dmp_distribution";
+template <>
+constexpr const char* kind_of<OrientationDistribution> = "orientation_distribution";
+template <>
+constexpr const char* kind_of<PoseDistribution> = "pose_distribution";
+template <>
+constexpr const char* kind_of<PoseGripperDistribution> = "pose_gripper_distribution";
+
 // A model has the oldest version that can hold it, so that older libraries read it.
 constexpr int kFieldsThatMayBeEmpty = 2;
 constexpr int kSequences = 3;  // and rhythmic motions
-constexpr int kNewest = kSequences;
+constexpr int kDistributions = 4;
+constexpr int kNewest = kDistributions;
 constexpr const char* kGuard = "scaling_guard";
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostKeys = 100;     // of one object, whose keys are looked up one after the other
@@ -70,6 +80,19 @@ Json to_json(const Primitive<Space>& model) {
   return json;
 }
 
+/// Every field of a distribution but the number of its demonstrations, by its name in a file.
+template <class Parameters, class Visit>
+void visit_distribution(Parameters& parameters, const Visit& visit) {
+  visit("control_points", parameters.options.control_points);
+  visit("prior", parameters.options.prior);
+  visit("iterations", parameters.options.iterations);
+  visit("duration", parameters.duration);
+  visit("reference", parameters.reference);
+  visit("mean", parameters.mean);
+  visit("factor", parameters.factor);
+  visit("noise", parameters.noise);
+}
+
 template <class Space>
 Json to_json(const Via<Space>& via) {
   Json json = Json::object();
@@ -94,6 +117,15 @@ Json to_json(const Sequence<Space>& sequence) {
           {"version", kSequences},
           {"kind", kind_of<Sequence<Space>>},
           {"parts", std::move(parts)}};
+}
+
+template <class Space>
+Json to_json(const Distribution<Space>& distribution) {
+  const auto& parameters = distribution.parameters();
+  Json json{{"format", "dmpcpp"}, {"version", kDistributions}, {"kind", kind_of<Distribution<Space>>}};
+  visit_distribution(parameters, JsonWriter(json));
+  json["demonstrations"] = parameters.demonstrations;
+  return json;
 }
 
 /// Format, version and kind of a model.
@@ -182,6 +214,14 @@ Sequence<Space> read(const Json& json, Sequence<Space>*) {
     parts.push_back(
         within(indexed("parts", static_cast<long>(parts.size())), [&] { return read_part<Space>(part); }));
   return Sequence<Space>(parts);
+}
+
+template <class Space>
+Distribution<Space> read(const Json& json, Distribution<Space>*) {
+  DistributionParameters<Space> parameters;
+  visit_distribution(parameters, JsonReader(json, "model", ""));
+  parameters.demonstrations = integer_at(member(json, "demonstrations", "model"), "demonstrations");
+  return Distribution<Space>(parameters);
 }
 
 /// The model of the alternative whose kind that is.
@@ -286,6 +326,17 @@ std::size_t numbers_in(const Sequence<Space>& sequence) {
     throw InvalidArgument(
         "parts: more than a model file may hold (10^6 numbers; 100 objects, of which a "
         "motion takes 3 and a via-point 1). Take fewer motions, kernels or via-points.");
+  return numbers;
+}
+
+template <class Space>
+std::size_t numbers_in(const Distribution<Space>& distribution) {
+  const auto& parameters = distribution.parameters();
+  const auto numbers = static_cast<std::size_t>(parameters.factor.size() + parameters.mean.size() +
+                                                parameters.reference.size() + 100);
+  if (numbers > kMostNumbers)
+    throw InvalidArgument("control_points: " + std::to_string(parameters.options.control_points) +
+                          ", more weights than a model file may hold (10^6 numbers in all). Use fewer.");
   return numbers;
 }
 

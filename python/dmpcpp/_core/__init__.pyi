@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import typing
 from . import so3
-__all__: list[str] = ['Alignment', 'Arm', 'Box', 'Capsule', 'Cycle', 'Demand', 'Demonstration', 'Derivatives', 'Dmp', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'EndPeaks', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'Motion', 'NoiseEstimate', 'NoiseKind', 'OrientationCycle', 'OrientationDemonstration', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'Pace', 'Paced', 'PacedLimit', 'PathFit', 'PathReport', 'Plane', 'PoseCycle', 'PoseDemonstration', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'SafetyFilter', 'Scaling', 'Sphere', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'duration_factor', 'fastest_tip', 'find_cycle', 'fit_forcing', 'fit_path', 'frechet', 'from_json', 'largest_demand', 'load', 'paced', 'retimed', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'tip_motion', 'to_json']
+__all__: list[str] = ['Alignment', 'Arm', 'Box', 'Capsule', 'Cycle', 'Demand', 'Demonstration', 'Derivatives', 'Dmp', 'DmpDistribution', 'DmpOptions', 'DmpParameters', 'DmpSequence', 'DmpSequenceRun', 'EndPeaks', 'FileError', 'FitReport', 'FollowOptions', 'ForcingTarget', 'GaussianBasis', 'Given', 'IkBackend', 'IkBatch', 'IkBranches', 'IkOptions', 'IkResult', 'IkStatus', 'Integrator', 'InvalidArgument', 'InverseKinematics', 'JointTracker', 'JointTrajectory', 'Kernels', 'LimitSource', 'LogBranch', 'Motion', 'NoiseEstimate', 'NoiseKind', 'OrientationCycle', 'OrientationDemonstration', 'OrientationDistribution', 'OrientationDmp', 'OrientationDmpParameters', 'OrientationDmpSequence', 'OrientationDmpSequenceRun', 'OrientationForm', 'OrientationRun', 'OrientationRunState', 'OrientationSpread', 'OrientationTrajectory', 'OrientationTrajectoryBatch', 'Pace', 'Paced', 'PacedLimit', 'PathFit', 'PathReport', 'Plane', 'PoseCycle', 'PoseDemonstration', 'PoseDistribution', 'PoseDmp', 'PoseDmpParameters', 'PoseDmpSequence', 'PoseDmpSequenceRun', 'PoseGripperDemonstration', 'PoseGripperDistribution', 'PoseGripperDmp', 'PoseGripperDmpParameters', 'PoseGripperDmpSequence', 'PoseGripperDmpSequenceRun', 'PoseGripperRun', 'PoseGripperRunState', 'PoseGripperTrajectory', 'PoseGripperTrajectoryBatch', 'PoseRun', 'PoseRunState', 'PoseSpread', 'PoseTrajectory', 'PoseTrajectoryBatch', 'Regression', 'Run', 'RunState', 'SafetyFilter', 'Scaling', 'Sphere', 'SplineEnds', 'Spread', 'Start', 'Status', 'TrackOptions', 'Trajectory', 'TrajectoryBatch', 'Via', 'align', 'assess', 'average', 'blend', 'damping_of', 'duration_factor', 'fastest_tip', 'find_cycle', 'fit_forcing', 'fit_path', 'frechet', 'from_json', 'largest_demand', 'load', 'paced', 'retimed', 'save', 'so3', 'spread', 'stretched', 'time_optimal', 'tip_motion', 'to_json']
 class InvalidArgument(ValueError):
     @property
     def argument(self) -> typing.Any:
@@ -858,6 +858,25 @@ class PoseSpread:
         """
         (K,) 0 to 1
         """
+class OrientationSpread:
+    """
+    Where demonstrations of one motion lie over the phase, for orientations.
+    """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, 3, 3) of the rotation vector from the mean [rad, world frame]
+        """
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, 3, 3)
+        """
+    @property
+    def phase(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K,) 0 to 1
+        """
 class Cycle:
     """
     One cycle of a recorded motion, and how it was found.
@@ -1173,6 +1192,34 @@ class SafetyFilter:
         """
         how many obstacles fit in at once
         """
+class Given:
+    """
+    What is known of a motion at a phase, for the condition of a distribution.
+    """
+    def __init__(self, phase: typing.SupportsFloat | typing.SupportsIndex, point: typing.Any | None = None, velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, covariance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, velocity_covariance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, axes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = ()) -> None:
+        """
+        phase: 0 to 1. point: as a model's goal; of poses a position (3,) too, whatever the rotation. velocity (d,) per s. covariance (d, d) of the point, velocity_covariance (d, d) of the velocity, of rotations about the axes of the world: known exactly unless given. axes: that are known, 0 to d - 1, positions first; all by default.
+        """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def axes(self) -> list[int]:
+        ...
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        ...
+    @property
+    def phase(self) -> float:
+        ...
+    @property
+    def point(self) -> typing.Any | None:
+        ...
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        ...
+    @property
+    def velocity_covariance(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        ...
 class DmpParameters:
     """
     All that a Dmp is: what a model file holds. Fields as keywords.
@@ -1599,6 +1646,105 @@ class DmpSequenceRun:
     def time(self) -> float:
         """
         s since the start
+        """
+class DmpDistribution:
+    """
+    A probabilistic movement primitive for positions in R^d: a motion and how it varies, learned from several demonstrations. Immutable.
+    """
+    @staticmethod
+    def fit(demonstrations: collections.abc.Sequence[Demonstration], *, control_points: typing.SupportsInt | typing.SupportsIndex = 14, prior: typing.SupportsFloat | typing.SupportsIndex = 8.0, iterations: typing.SupportsInt | typing.SupportsIndex = 20) -> DmpDistribution:
+        """
+        Learns two or more demonstrations of one motion by expectation maximisation, each taken at t / its duration. control_points: of the cubic B-splines over the phase, 4 to 200; prior: weight of the inverse-Wishart prior, in demonstrations, 0.1 to 1000. Raises InvalidArgument, naming it, for a demonstration that does not belong to the others.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    @typing.overload
+    def condition(self, given: collections.abc.Sequence[Given]) -> DmpDistribution:
+        """
+        Of the motions that pass what is given: a list of Given, or a dict of points by their phases, which are passed exactly. Raises InvalidArgument, naming given[k], for phases, shapes or covariances out of range, and where nothing is left open: two exact points at one phase, or more of them than there are control points near by.
+        """
+    @typing.overload
+    def condition(self, given: collections.abc.Mapping[typing.SupportsFloat | typing.SupportsIndex, typing.Any]) -> DmpDistribution:
+        ...
+    def continued(self, part: Demonstration, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, phase: typing.SupportsFloat | typing.SupportsIndex = 0.0, noise: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> DmpDistribution:
+        """
+        Of the motions that go on from a recording of their beginning, or of a part from `phase` on, at the pace of `duration` (s, of the whole motion; the mean one unless given). `noise` (parts,): standard deviation of a sample; unless given that of the demonstrations, with a share of the variance there. Raises InvalidArgument where the part does not lie within the motion.
+        """
+    def distance(self, given: Given) -> float:
+        """
+        How many standard deviations (Mahalanobis) what is given lies from the mean, noise included.
+        """
+    def log_likelihood(self, demonstration: Demonstration) -> float:
+        """
+        Logarithm of the density of a demonstration, taken at t / its duration: of all its numbers, in the units of the demonstrations.
+        """
+    def mean(self, options: DmpOptions | None = None, **kwargs) -> Dmp:
+        """
+        The mean as a primitive; options as its fit takes them.
+        """
+    def observation_covariance(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) how far an observed motion may lie from what the weights can say at a phase: for `covariance` of what was measured and not wished for.
+        """
+    def rollout(self, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> Trajectory:
+        """
+        The mean motion over `duration`, at `samples` even times.
+        """
+    def sample(self, seed: typing.SupportsInt | typing.SupportsIndex = 0, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> Trajectory:
+        """
+        One motion drawn from it; the same for the same seed.
+        """
+    def spread(self, count: typing.SupportsInt | typing.SupportsIndex = 101) -> Spread:
+        """
+        Mean and covariance at `count` even phases, without the noise of samples; of rotations about the axes of the world.
+        """
+    def stiffness(self, phase: typing.SupportsFloat | typing.SupportsIndex, most: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64], spread: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) stiffness that is high where the demonstrations agree: no more than `most`, half of it where their standard deviation is `spread`. Both: a positive number, or (d,). Positive definite by construction; see damping_of.
+        """
+    @property
+    def control_points(self) -> int:
+        """
+        N, of the splines over the phase
+        """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d, N * d) of the weights
+        """
+    @property
+    def demonstrations(self) -> int:
+        """
+        how many it was learned from
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        d, axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, mean of the demonstrations
+        """
+    @property
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (parts,) standard deviation of a sample, of vectors and of rotations [rad]
+        """
+    @property
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, columns) the motion at even phases that the weights deviate from; rotations as w x y z
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d,) mean of the weights, those of one control point together
         """
 class OrientationDmpParameters:
     """
@@ -2038,6 +2184,105 @@ class OrientationDmpSequenceRun:
     def time(self) -> float:
         """
         s since the start
+        """
+class OrientationDistribution:
+    """
+    A probabilistic movement primitive for orientations on SO(3): a motion and how it varies, learned from several demonstrations. Immutable.
+    """
+    @staticmethod
+    def fit(demonstrations: collections.abc.Sequence[OrientationDemonstration], *, control_points: typing.SupportsInt | typing.SupportsIndex = 14, prior: typing.SupportsFloat | typing.SupportsIndex = 8.0, iterations: typing.SupportsInt | typing.SupportsIndex = 20) -> OrientationDistribution:
+        """
+        Learns two or more demonstrations of one motion by expectation maximisation, each taken at t / its duration. control_points: of the cubic B-splines over the phase, 4 to 200; prior: weight of the inverse-Wishart prior, in demonstrations, 0.1 to 1000. Raises InvalidArgument, naming it, for a demonstration that does not belong to the others.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    @typing.overload
+    def condition(self, given: collections.abc.Sequence[Given]) -> OrientationDistribution:
+        """
+        Of the motions that pass what is given: a list of Given, or a dict of points by their phases, which are passed exactly. Raises InvalidArgument, naming given[k], for phases, shapes or covariances out of range, and where nothing is left open: two exact points at one phase, or more of them than there are control points near by.
+        """
+    @typing.overload
+    def condition(self, given: collections.abc.Mapping[typing.SupportsFloat | typing.SupportsIndex, typing.Any]) -> OrientationDistribution:
+        ...
+    def continued(self, part: OrientationDemonstration, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, phase: typing.SupportsFloat | typing.SupportsIndex = 0.0, noise: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> OrientationDistribution:
+        """
+        Of the motions that go on from a recording of their beginning, or of a part from `phase` on, at the pace of `duration` (s, of the whole motion; the mean one unless given). `noise` (parts,): standard deviation of a sample; unless given that of the demonstrations, with a share of the variance there. Raises InvalidArgument where the part does not lie within the motion.
+        """
+    def distance(self, given: Given) -> float:
+        """
+        How many standard deviations (Mahalanobis) what is given lies from the mean, noise included.
+        """
+    def log_likelihood(self, demonstration: OrientationDemonstration) -> float:
+        """
+        Logarithm of the density of a demonstration, taken at t / its duration: of all its numbers, in the units of the demonstrations.
+        """
+    def mean(self, options: DmpOptions | None = None, **kwargs) -> OrientationDmp:
+        """
+        The mean as a primitive; options as its fit takes them.
+        """
+    def observation_covariance(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) how far an observed motion may lie from what the weights can say at a phase: for `covariance` of what was measured and not wished for.
+        """
+    def rollout(self, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> OrientationTrajectory:
+        """
+        The mean motion over `duration`, at `samples` even times.
+        """
+    def sample(self, seed: typing.SupportsInt | typing.SupportsIndex = 0, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> OrientationTrajectory:
+        """
+        One motion drawn from it; the same for the same seed.
+        """
+    def spread(self, count: typing.SupportsInt | typing.SupportsIndex = 101) -> OrientationSpread:
+        """
+        Mean and covariance at `count` even phases, without the noise of samples; of rotations about the axes of the world.
+        """
+    def stiffness(self, phase: typing.SupportsFloat | typing.SupportsIndex, most: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64], spread: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) stiffness that is high where the demonstrations agree: no more than `most`, half of it where their standard deviation is `spread`. Both: a positive number, or (d,). Positive definite by construction; see damping_of.
+        """
+    @property
+    def control_points(self) -> int:
+        """
+        N, of the splines over the phase
+        """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d, N * d) of the weights
+        """
+    @property
+    def demonstrations(self) -> int:
+        """
+        how many it was learned from
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        d, axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, mean of the demonstrations
+        """
+    @property
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (parts,) standard deviation of a sample, of vectors and of rotations [rad]
+        """
+    @property
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, columns) the motion at even phases that the weights deviate from; rotations as w x y z
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d,) mean of the weights, those of one control point together
         """
 class PoseDmpParameters:
     """
@@ -2487,6 +2732,105 @@ class PoseDmpSequenceRun:
     def time(self) -> float:
         """
         s since the start
+        """
+class PoseDistribution:
+    """
+    A probabilistic movement primitive for poses [R p; 0 1], position and orientation in one phase: a motion and how it varies, learned from several demonstrations. Immutable.
+    """
+    @staticmethod
+    def fit(demonstrations: collections.abc.Sequence[PoseDemonstration], *, control_points: typing.SupportsInt | typing.SupportsIndex = 14, prior: typing.SupportsFloat | typing.SupportsIndex = 8.0, iterations: typing.SupportsInt | typing.SupportsIndex = 20) -> PoseDistribution:
+        """
+        Learns two or more demonstrations of one motion by expectation maximisation, each taken at t / its duration. control_points: of the cubic B-splines over the phase, 4 to 200; prior: weight of the inverse-Wishart prior, in demonstrations, 0.1 to 1000. Raises InvalidArgument, naming it, for a demonstration that does not belong to the others.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    @typing.overload
+    def condition(self, given: collections.abc.Sequence[Given]) -> PoseDistribution:
+        """
+        Of the motions that pass what is given: a list of Given, or a dict of points by their phases, which are passed exactly. Raises InvalidArgument, naming given[k], for phases, shapes or covariances out of range, and where nothing is left open: two exact points at one phase, or more of them than there are control points near by.
+        """
+    @typing.overload
+    def condition(self, given: collections.abc.Mapping[typing.SupportsFloat | typing.SupportsIndex, typing.Any]) -> PoseDistribution:
+        ...
+    def continued(self, part: PoseDemonstration, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, phase: typing.SupportsFloat | typing.SupportsIndex = 0.0, noise: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> PoseDistribution:
+        """
+        Of the motions that go on from a recording of their beginning, or of a part from `phase` on, at the pace of `duration` (s, of the whole motion; the mean one unless given). `noise` (parts,): standard deviation of a sample; unless given that of the demonstrations, with a share of the variance there. Raises InvalidArgument where the part does not lie within the motion.
+        """
+    def distance(self, given: Given) -> float:
+        """
+        How many standard deviations (Mahalanobis) what is given lies from the mean, noise included.
+        """
+    def log_likelihood(self, demonstration: PoseDemonstration) -> float:
+        """
+        Logarithm of the density of a demonstration, taken at t / its duration: of all its numbers, in the units of the demonstrations.
+        """
+    def mean(self, options: DmpOptions | None = None, **kwargs) -> PoseDmp:
+        """
+        The mean as a primitive; options as its fit takes them.
+        """
+    def observation_covariance(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) how far an observed motion may lie from what the weights can say at a phase: for `covariance` of what was measured and not wished for.
+        """
+    def rollout(self, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> PoseTrajectory:
+        """
+        The mean motion over `duration`, at `samples` even times.
+        """
+    def sample(self, seed: typing.SupportsInt | typing.SupportsIndex = 0, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> PoseTrajectory:
+        """
+        One motion drawn from it; the same for the same seed.
+        """
+    def spread(self, count: typing.SupportsInt | typing.SupportsIndex = 101) -> PoseSpread:
+        """
+        Mean and covariance at `count` even phases, without the noise of samples; of rotations about the axes of the world.
+        """
+    def stiffness(self, phase: typing.SupportsFloat | typing.SupportsIndex, most: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64], spread: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) stiffness that is high where the demonstrations agree: no more than `most`, half of it where their standard deviation is `spread`. Both: a positive number, or (d,). Positive definite by construction; see damping_of.
+        """
+    @property
+    def control_points(self) -> int:
+        """
+        N, of the splines over the phase
+        """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d, N * d) of the weights
+        """
+    @property
+    def demonstrations(self) -> int:
+        """
+        how many it was learned from
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        d, axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, mean of the demonstrations
+        """
+    @property
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (parts,) standard deviation of a sample, of vectors and of rotations [rad]
+        """
+    @property
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, columns) the motion at even phases that the weights deviate from; rotations as w x y z
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d,) mean of the weights, those of one control point together
         """
 class PoseGripperTrajectory:
     """
@@ -3040,6 +3384,101 @@ class PoseGripperDmpSequenceRun:
     def time(self) -> float:
         """
         s since the start
+        """
+class PoseGripperDistribution:
+    """
+    A probabilistic movement primitive for the pose of a tool and its gripper, in one phase: a motion and how it varies, learned from several demonstrations. Immutable.
+    """
+    @staticmethod
+    def fit(demonstrations: collections.abc.Sequence[PoseGripperDemonstration], *, control_points: typing.SupportsInt | typing.SupportsIndex = 14, prior: typing.SupportsFloat | typing.SupportsIndex = 8.0, iterations: typing.SupportsInt | typing.SupportsIndex = 20) -> PoseGripperDistribution:
+        """
+        Learns two or more demonstrations of one motion by expectation maximisation, each taken at t / its duration. control_points: of the cubic B-splines over the phase, 4 to 200; prior: weight of the inverse-Wishart prior, in demonstrations, 0.1 to 1000. Raises InvalidArgument, naming it, for a demonstration that does not belong to the others.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    @typing.overload
+    def condition(self, given: collections.abc.Sequence[Given]) -> PoseGripperDistribution:
+        """
+        Of the motions that pass what is given: a list of Given, or a dict of points by their phases, which are passed exactly. Raises InvalidArgument, naming given[k], for phases, shapes or covariances out of range, and where nothing is left open: two exact points at one phase, or more of them than there are control points near by.
+        """
+    @typing.overload
+    def condition(self, given: collections.abc.Mapping[typing.SupportsFloat | typing.SupportsIndex, typing.Any]) -> PoseGripperDistribution:
+        ...
+    def continued(self, part: PoseGripperDemonstration, duration: typing.SupportsFloat | typing.SupportsIndex | None = None, phase: typing.SupportsFloat | typing.SupportsIndex = 0.0, noise: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> PoseGripperDistribution:
+        """
+        Of the motions that go on from a recording of their beginning, or of a part from `phase` on, at the pace of `duration` (s, of the whole motion; the mean one unless given). `noise` (parts,): standard deviation of a sample; unless given that of the demonstrations, with a share of the variance there. Raises InvalidArgument where the part does not lie within the motion.
+        """
+    def distance(self, given: Given) -> float:
+        """
+        How many standard deviations (Mahalanobis) what is given lies from the mean, noise included.
+        """
+    def log_likelihood(self, demonstration: PoseGripperDemonstration) -> float:
+        """
+        Logarithm of the density of a demonstration, taken at t / its duration: of all its numbers, in the units of the demonstrations.
+        """
+    def mean(self, options: DmpOptions | None = None, **kwargs) -> PoseGripperDmp:
+        """
+        The mean as a primitive; options as its fit takes them.
+        """
+    def observation_covariance(self, phase: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) how far an observed motion may lie from what the weights can say at a phase: for `covariance` of what was measured and not wished for.
+        """
+    def rollout(self, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> PoseGripperTrajectory:
+        """
+        The mean motion over `duration`, at `samples` even times.
+        """
+    def sample(self, seed: typing.SupportsInt | typing.SupportsIndex = 0, samples: typing.SupportsInt | typing.SupportsIndex = 101) -> PoseGripperTrajectory:
+        """
+        One motion drawn from it; the same for the same seed.
+        """
+    def stiffness(self, phase: typing.SupportsFloat | typing.SupportsIndex, most: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64], spread: typing.SupportsFloat | typing.SupportsIndex | typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (d, d) stiffness that is high where the demonstrations agree: no more than `most`, half of it where their standard deviation is `spread`. Both: a positive number, or (d,). Positive definite by construction; see damping_of.
+        """
+    @property
+    def control_points(self) -> int:
+        """
+        N, of the splines over the phase
+        """
+    @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d, N * d) of the weights
+        """
+    @property
+    def demonstrations(self) -> int:
+        """
+        how many it was learned from
+        """
+    @property
+    def dimension(self) -> int:
+        """
+        d, axes of the motion
+        """
+    @property
+    def duration(self) -> float:
+        """
+        s, mean of the demonstrations
+        """
+    @property
+    def noise(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (parts,) standard deviation of a sample, of vectors and of rotations [rad]
+        """
+    @property
+    def reference(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (K, columns) the motion at even phases that the weights deviate from; rotations as w x y z
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N * d,) mean of the weights, those of one control point together
         """
 class Alignment:
     """
@@ -3952,6 +4391,30 @@ def average(models: collections.abc.Sequence[PoseGripperDmp]) -> PoseGripperDmp:
     """
     The model with the mean of all weights, starts, goals, start velocities and durations. Raises InvalidArgument for models that differ in options or dimension; a joint fit is right everywhere.
     """
+@typing.overload
+def blend(distributions: collections.abc.Sequence[DmpDistribution], weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> DmpDistribution:
+    """
+    The product of distributions to these powers (positive, one for each): what they agree on.
+    """
+@typing.overload
+def blend(distributions: collections.abc.Sequence[OrientationDistribution], weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> OrientationDistribution:
+    """
+    The product of distributions to these powers (positive, one for each): what they agree on.
+    """
+@typing.overload
+def blend(distributions: collections.abc.Sequence[PoseDistribution], weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseDistribution:
+    """
+    The product of distributions to these powers (positive, one for each): what they agree on.
+    """
+@typing.overload
+def blend(distributions: collections.abc.Sequence[PoseGripperDistribution], weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PoseGripperDistribution:
+    """
+    The product of distributions to these powers (positive, one for each): what they agree on.
+    """
+def damping_of(stiffness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], zeta: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    2 zeta sqrt(K) of a symmetric positive definite stiffness (d, d), for unit masses.
+    """
 def duration_factor(joints: JointTrajectory, velocity_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], acceleration_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], effort_limit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, *, arm: Arm | None = None, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = [0.0, 0.0, -9.81]) -> float:
     """
     The smallest factor on the duration with which the joints' spline stays within the limits.
@@ -4039,12 +4502,18 @@ def save(model: Dmp, path: os.PathLike | str | bytes) -> None:
 def save(model: DmpSequence, path: os.PathLike | str | bytes) -> None:
     ...
 @typing.overload
+def save(model: DmpDistribution, path: os.PathLike | str | bytes) -> None:
+    ...
+@typing.overload
 def save(model: OrientationDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
 @typing.overload
 def save(model: OrientationDmpSequence, path: os.PathLike | str | bytes) -> None:
+    ...
+@typing.overload
+def save(model: OrientationDistribution, path: os.PathLike | str | bytes) -> None:
     ...
 @typing.overload
 def save(model: PoseDmp, path: os.PathLike | str | bytes) -> None:
@@ -4055,12 +4524,18 @@ def save(model: PoseDmp, path: os.PathLike | str | bytes) -> None:
 def save(model: PoseDmpSequence, path: os.PathLike | str | bytes) -> None:
     ...
 @typing.overload
+def save(model: PoseDistribution, path: os.PathLike | str | bytes) -> None:
+    ...
+@typing.overload
 def save(model: PoseGripperDmp, path: os.PathLike | str | bytes) -> None:
     """
     Writes a model file (JSON), whole or not at all. Raises FileError.
     """
 @typing.overload
 def save(model: PoseGripperDmpSequence, path: os.PathLike | str | bytes) -> None:
+    ...
+@typing.overload
+def save(model: PoseGripperDistribution, path: os.PathLike | str | bytes) -> None:
     ...
 @typing.overload
 def spread(demonstrations: collections.abc.Sequence[Demonstration], count: typing.SupportsInt | typing.SupportsIndex = 101) -> Spread:
@@ -4098,12 +4573,18 @@ def to_json(model: Dmp) -> str:
 def to_json(model: DmpSequence) -> str:
     ...
 @typing.overload
+def to_json(model: DmpDistribution) -> str:
+    ...
+@typing.overload
 def to_json(model: OrientationDmp) -> str:
     """
     The text of a model file.
     """
 @typing.overload
 def to_json(model: OrientationDmpSequence) -> str:
+    ...
+@typing.overload
+def to_json(model: OrientationDistribution) -> str:
     ...
 @typing.overload
 def to_json(model: PoseDmp) -> str:
@@ -4114,11 +4595,17 @@ def to_json(model: PoseDmp) -> str:
 def to_json(model: PoseDmpSequence) -> str:
     ...
 @typing.overload
+def to_json(model: PoseDistribution) -> str:
+    ...
+@typing.overload
 def to_json(model: PoseGripperDmp) -> str:
     """
     The text of a model file.
     """
 @typing.overload
 def to_json(model: PoseGripperDmpSequence) -> str:
+    ...
+@typing.overload
+def to_json(model: PoseGripperDistribution) -> str:
     ...
 __version__: str = '0.2.0'

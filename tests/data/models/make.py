@@ -64,6 +64,15 @@ def sequence() -> object:
     return dmpcpp.PoseDmpSequence([model, stir, model], leave=[0.9, 5.5, 1.0], reach=0.4, via=[[], [], [via]])
 
 
+def distribution() -> object:
+    """Three takes that reach further and turn further."""
+    poses = np.array([demonstrations()["pose_dmp"].pose for _ in range(3)])
+    for k, take in enumerate(poses):
+        take[:, :3, 3] *= 1 + 0.1 * k
+        take[:, :3, :3] = [dmpcpp.so3.exp([0.1 * k * t, 0, 0]) @ r for t, r in zip(TIME, take[:, :3, :3], strict=True)]
+    return dmpcpp.PoseDistribution.fit([dmpcpp.PoseDemonstration(TIME, take) for take in poses], control_points=5)
+
+
 def motion(model) -> list:
     """Where the model is at five moments, at another tempo."""
     plan = model.rollout_at(np.linspace(0.0, 2.0, 5), duration=2.0)
@@ -88,6 +97,8 @@ def main(folder: Path) -> None:
         motions[f"{kind}-rhythmic"] = motion(model)
     dmpcpp.save(sequence(), folder / "pose_dmp_sequence.json")
     motions["pose_dmp_sequence"] = sequence().rollout_at(np.linspace(0.0, 8.0, 9)).pose.tolist()
+    dmpcpp.save(distribution(), folder / "pose_distribution.json")
+    motions["pose_distribution"] = distribution().sample(seed=1, samples=9).pose.tolist()
     (folder / "motions.json").write_text(json.dumps(motions, indent=0) + "\n")
 
 
