@@ -67,18 +67,21 @@ def seeded_motion(
     distance: float = 0.6,
     turn: float = 25.0,
     reach: float = 0.12,
+    facing: float = 0.0,
     base: np.ndarray | None = None,
 ) -> HandMotion:
-    """Return a smooth motion: sums of three slow waves about a palm that faces the first camera, fingers up.
+    """Return a smooth motion: sums of three slow waves about a palm that faces the cameras, fingers up.
 
-    `turn` [deg] and `reach` [m] are the largest angle about, and the range along, an axis.
+    `turn` [deg] and `reach` [m] are the largest angle about, and the range along, an axis; `facing` [deg] is where the
+    palm looks, from the first camera to the right.
     """
     rng = np.random.default_rng([seed, 26])
     time = np.arange(0.0, duration + 1e-9, 1.0 / rate)
     waves = _waves(rng, time, 10, duration)
     # Palm to the camera: z off the back is away from it (+z), fingers up is -y.
-    facing = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]) if base is None else base
-    rotation = Rotation.from_rotvec(np.radians(turn) * waves[:, :3] * [0.8, 1.0, 0.8]).as_matrix() @ facing
+    base = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]) if base is None else base
+    base = Rotation.from_euler("y", -facing, degrees=True).as_matrix() @ base
+    rotation = Rotation.from_rotvec(np.radians(turn) * waves[:, :3] * [0.8, 1.0, 0.8]).as_matrix() @ base
     position = np.array([0.0, 0.07, distance]) + reach * waves[:, 3:6] * [1.0, 0.6, 0.6]
     bend = 0.18 + 0.12 * waves[:, 6:]
     return HandMotion(time, rotation, position, bend)

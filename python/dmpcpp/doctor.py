@@ -75,6 +75,8 @@ _PACKAGES = (  # module, distribution, what for, extra, needed
     ("mcap", "mcap", "Foxglove MCAP recordings", "datasets", False),
     ("mcap_protobuf", "mcap-protobuf-support", "Foxglove MCAP recordings", "datasets", False),
     ("pylibfranka", "pylibfranka", "dmpcpp run --robot franka://HOST; Python up to 3.12", "franka", False),
+    ("cv2", "opencv-python-headless", "videos of a hand or a tag as recordings", "cameras", False),
+    ("ai_edge_litert", "ai-edge-litert", "videos of a hand, five times as fast as without", "cameras", False),
     ("imageio_ffmpeg", "imageio-ffmpeg", "--video", "video", False),
     ("distributed", "distributed", "batches on a cluster", "cluster", False),
 )
@@ -87,6 +89,7 @@ def examine() -> Diagnosis:
             _python(),
             _tried("core", _core, "learning, rollout", "pip install --force-reinstall dmpcpp"),
             *map(_package, _PACKAGES),
+            _hand_model(),
             _tried("physics engine", _engines, "executing and verifying a motion", 'pip install "dmpcpp[mujoco]"'),
             _tried("known arms", _arms, "--arm panda, iiwa, xarm6", "dmpcpp fetch"),
             _tried("motions", _motions, "the motion of dmpcpp demo", "dmpcpp fetch"),
@@ -108,6 +111,16 @@ def _package(wanted: tuple[str, str, str, str, bool]) -> Part:
     except Exception as error:  # a broken package may raise anything
         return Part(distribution, False, f"{type(error).__name__}: {error}", purpose, to_do, needed)
     return Part(distribution, True, _version(distribution), purpose, "", needed)
+
+
+def _hand_model() -> Part:
+    from dmpcpp.cameras import GET, net_files
+
+    purpose = "videos of a hand as recordings"
+    try:
+        return Part("hand model", True, str(net_files()[0].parent), purpose, "", False)
+    except Exception as error:  # missing, or another file in its place
+        return Part("hand model", False, f"{type(error).__name__}: {error}", purpose, GET, False)
 
 
 def _build(extra: str) -> str:

@@ -1,5 +1,7 @@
 """Cameras without pictures: exact projections of a known hand, with the noise that landmark nets show."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from dmpcpp import cameras
@@ -10,12 +12,12 @@ from scipy.spatial.transform import Rotation
 from benchmarks.hand_model import HAND_LENGTH, body_errors, second_camera, seeded_motion, seen
 
 CAMERA = Camera.of_fov(np.radians(70.8), (1280, 720))
-PIXELS, WORLD = 3.5, 0.003  # px, m: what nets show on hands
+PIXELS, WORLD = 2.55, 0.003  # px and m an axis: a median error of 3 px, as nets show on hands
 
 
 def pair(seed, angle, noise=PIXELS, late=2.3 / 30.0):
     """Return a motion, its two views and how the cameras stand; the second clock runs 1.7 s and `late` ahead."""
-    motion, relation = seeded_motion(seed), second_camera(angle)
+    motion, relation = seeded_motion(seed, facing=angle / 2.0), second_camera(angle)
     first = seen(motion, CAMERA, seed=seed, pixels=noise)
     second = seen(
         motion.at(motion.time[3:-3] + 0.013), CAMERA, relation, seed=seed + 100, pixels=noise, clock=1.7 + late
@@ -62,6 +64,7 @@ def test_points_are_triangulated_exactly():
 
 def test_without_noise_two_cameras_give_the_poses_back():
     motion = seeded_motion(5)
+    motion = replace(motion, bend=np.full_like(motion.bend, 0.2))
     relation = second_camera(60)
     found = cameras.fit_two_views(seen(motion, CAMERA), seen(motion, CAMERA, relation), relation)
     position, angle = body_errors(motion.rotation, motion.position, found.rotation, found.position)
@@ -79,7 +82,7 @@ def test_two_cameras_measure_to_millimetres_and_say_so():
         errors.append((1e3 * error[0], np.degrees(error[1])))
         ratios += [said.position / error[0], said.angle / error[1]]
     assert np.max(errors, axis=0)[0] <= 3.5
-    assert np.max(errors, axis=0)[1] <= 4.2
+    assert np.max(errors, axis=0)[1] <= 3.9
     assert np.mean((np.array(ratios) > 0.5) & (np.array(ratios) < 2.0)) >= 0.75
 
 
@@ -90,7 +93,7 @@ def test_the_hand_alone_synchronises_and_relates_the_cameras(seed, angle):
     assert abs(shift.shift - late) * 30.0 <= 0.25
     known = cameras.synchronise(first, second, relation)
     assert abs(known.shift - late) * 30.0 <= 0.25
-    found = cameras.relate(*cameras.paired_rays(first, second, shift), CAMERA.focal)
+    found = cameras.relate(*cameras.paired_rays(first, second, shift), first.deviation)
     apart = Rotation.from_matrix(found.rotation.T @ relation.rotation).magnitude()
     direction = relation.translation / np.linalg.norm(relation.translation)
     assert np.degrees(apart) < 4.0

@@ -21,8 +21,8 @@ _CLEAR = 4.0  # times the noise's power: what lies above it is motion
 _PER_BAND = 4.0  # samples a period of the cutoff, at least
 
 
-def band_of(time: Array, position: Array, noise: Array) -> float:
-    """Return the cutoff [Hz], 3 to 6: where the spectrum of the motion falls to that of the noise.
+def band_of(time: Array, position: Array, noise: Array, highest: float = _HIGHEST) -> float:
+    """Return the cutoff [Hz], from 3 to 6: where the spectrum of the motion falls to that of the noise.
 
     Parameters
     ----------
@@ -32,6 +32,8 @@ def band_of(time: Array, position: Array, noise: Array) -> float:
         m.
     noise : array (T, N)
         Independent samples of what is noise in a position [m].
+    highest : float
+        Hz, in place of 6.
     """
     rate = (len(time) - 1) / (time[-1] - time[0])
     even = np.linspace(time[0], time[-1], len(time))
@@ -41,7 +43,7 @@ def band_of(time: Array, position: Array, noise: Array) -> float:
         frequency, power = periodogram(sampled, fs=rate, window="hann", detrend="linear", axis=0)
         spectra.append(np.convolve(power.mean(axis=1), np.ones(5) / 5.0, mode="same"))
     above = frequency[spectra[0] > _CLEAR * spectra[1]]
-    return float(np.clip(above.max(initial=0.0), _LOWEST, _HIGHEST))
+    return float(np.clip(above.max(initial=0.0), _LOWEST, highest))
 
 
 def even_times(time: Array, cutoff: float) -> Array:

@@ -26,10 +26,12 @@ _ANCHOR = 1e-3  # weight of the palm's start: holds the frame, which nothing els
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """What one camera measured: rays (T, K, 2), NaN where lost, its focal length [px], and x_camera = R x + t."""
+    """What one camera measured: rays (T, K, 2), NaN where lost, the standard deviations (K,) along an axis, and
+    x_camera = R x + t.
+    """
 
     rays: Array
-    focal: float
+    deviation: Array
     rotation: Array
     translation: Array
 
@@ -40,8 +42,6 @@ class Fit:
 
     Attributes
     ----------
-    pixels : float
-        px, of a landmark along one axis.
     acceleration : float
         m/s^2, of the position.
     turning : float
@@ -52,7 +52,6 @@ class Fit:
         Weight of the starting palm as a measurement, on top of the anchor.
     """
 
-    pixels: float = 3.0
     acceleration: float = 6.0
     turning: float = 40.0
     rotation: float = 0.0
@@ -64,8 +63,8 @@ class Motion:
     """Fitted poses in the first camera's axes.
 
     `rotation` (T, 3, 3), `position` (T, 3) [m] of the palm's frame; `palm` (K, 3) [m] in it; `error` (V, T, K, 2) the
-    reprojection [px], NaN where not seen; `variance` (T, 6) of a frame alone, for an error of 1 px: of the turn [rad^2]
-    about, and of the position [m^2] along, each axis.
+    reprojection in standard deviations, NaN where not seen; `variance` (T, 6) of a frame alone, for such errors of one
+    deviation: of the turn [rad^2] about, and of the position [m^2] along, each axis.
     """
 
     rotation: Array
@@ -174,11 +173,11 @@ class _Problem:
         points = np.einsum("tij,kj->tki", rotation, palm) + position[:, None]
         seen = points @ sight.rotation.T + sight.translation
         depth = np.maximum(seen[..., 2], _BEHIND)
-        scale = sight.focal / self.how.pixels
+        scale = (1.0 / sight.deviation)[:, None]
         ray = seen[..., :2] / depth[..., None]
         error = scale * (ray - sight.rays)
         jacobian = np.zeros((*error.shape, 3))
-        jacobian[..., 0, 0] = jacobian[..., 1, 1] = scale / depth
+        jacobian[..., 0, 0] = jacobian[..., 1, 1] = scale[:, 0] / depth
         jacobian[..., 2] = -scale * ray / depth[..., None]
         return error, jacobian
 
@@ -223,10 +222,10 @@ class _Problem:
         rotation, palm = rotation @ axes, (palm - origin) @ axes
         for sight in self.sights:
             scaled, jacobian = self._reprojection(sight, rotation, position, palm)
-            own = self._parts(jacobian, rotation, palm, sight)[0] * self.how.pixels
+            own = self._parts(jacobian, rotation, palm, sight)[0]
             own = np.where(np.isfinite(scaled)[..., None], own, 0.0)
             information += np.einsum("tkei,tkej->tij", own, own)
-            error.append(scaled * self.how.pixels)
+            error.append(scaled)
         covariance = np.linalg.pinv(information, hermitian=True)
         return Motion(rotation, position, palm, np.array(error), np.einsum("tii->ti", covariance))
 

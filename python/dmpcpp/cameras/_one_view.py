@@ -19,7 +19,7 @@ from dmpcpp.cameras._two_views import frames_between
 __all__ = ["Quality", "fit_one_view"]
 
 _FRAME = (PALM.index(0), PALM.index(5), PALM.index(9), PALM.index(17))
-_HOW = Fit(pixels=3.0, acceleration=4.0, turning=25.0, rotation=0.15, palm=1.0)
+_HOW = Fit(acceleration=4.0, turning=25.0, rotation=0.15, palm=1.0)
 _BONES = ((0, 5), (0, 9), (0, 13), (0, 17), (5, 17))
 
 
@@ -66,7 +66,7 @@ def fit_one_view(view: Landmarks, scale: float) -> tuple[Motion, Quality]:
     places = np.full((len(world), 3), np.nan)
     places[found] = _placed(rays[found], turns[found] @ palm.T)
     rotation, position = frames_between(view.time, turns, places)
-    sights = [Sight(rays, view.camera.focal, np.eye(3), np.zeros(3))]
+    sights = [Sight(rays, np.full(len(PALM), view.deviation), np.eye(3), np.zeros(3))]
     motion = fit_motion(view.time, sights, rotation, position, palm, spread + 0.003, _HOW, _FRAME)
     return motion, _quality(view, motion, palm)
 
@@ -106,5 +106,4 @@ def _quality(view: Landmarks, motion: Motion, palm: Array) -> Quality:
     seen = view.camera.rays(view.pixels[:, list(PALM)])
     depth = np.maximum(points[..., 2:], 0.02)
     error = view.camera.focal * np.linalg.norm(points[..., :2] / depth - seen, axis=2)
-    size = np.nanmedian(np.linalg.norm(view.pixels[:, 9] - view.pixels[:, 0], axis=1))
-    return Quality(float(np.median(spreads)), float(np.sqrt(np.nanmean(error**2)) / size))
+    return Quality(float(np.median(spreads)), float(np.sqrt(np.nanmean(error**2)) / view.palm_pixels))

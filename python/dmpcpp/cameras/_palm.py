@@ -33,15 +33,18 @@ def palm_shape(points: Array, landmarks: tuple[int, ...]) -> tuple[Array, Array]
     return middle, 1.4826 * np.nanmedian(np.abs(turned - middle), axis=0)
 
 
-def kabsch(shape: Array, points: Array) -> tuple[Array, Array]:
-    """Return rotations (T, 3, 3) and translations (T, 3) that lay a shape (K, 3) over points (T, K, 3), least squares.
+def kabsch(shape: Array, points: Array, weight: Array | None = None) -> tuple[Array, Array]:
+    """Return rotations (T, 3, 3) and translations (T, 3) that lay a shape (K, 3) over points (T, K, 3), least squares
+    with a weight (K,) of each point.
 
     Source: W. Kabsch, Acta Cryst. A32 (1976); S. Umeyama, IEEE PAMI 13 (1991). NaN where a point is NaN.
     """
     known = np.asarray(np.isfinite(points).all(axis=(1, 2)))
     filled = np.where(known[:, None, None], points, shape)
-    centre, middle = filled.mean(axis=1), shape.mean(axis=0)
-    spread = np.einsum("tki,kj->tij", filled - centre[:, None], shape - middle)
+    weight = np.ones(len(shape)) if weight is None else weight
+    weight = weight / weight.sum()
+    centre, middle = weight @ filled, weight @ shape
+    spread = np.einsum("k,tki,kj->tij", weight, filled - centre[:, None], shape - middle)
     u, _, vt = np.linalg.svd(spread)
     u[:, :, 2] *= np.sign(np.linalg.det(u) * np.linalg.det(vt))[:, None]
     rotation = u @ vt

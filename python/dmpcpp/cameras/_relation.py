@@ -23,7 +23,7 @@ _ROUNDS = 6  # of reweighting
 
 @dataclass(frozen=True, eq=False)
 class Relation:
-    """The second camera against the first: x_2 = rotation x_1 + translation; `error` [px], a robust deviation."""
+    """The second camera against the first: x_2 = rotation x_1 + translation; `error` of rays, a robust deviation."""
 
     rotation: Array
     translation: Array
@@ -55,24 +55,22 @@ def sampson(matrix: Array, first: Array, second: Array) -> Array:
     return np.asarray(np.einsum("ni,ni->n", b, left) / np.maximum(scale, 1e-12))
 
 
-def relate(first: Array, second: Array, focal: float, deviation: float = 2.0) -> Relation | None:
+def relate(first: Array, second: Array, deviation: float) -> Relation | None:
     """Return the relation, with a translation of length 1, that rays (N, 2) of the same points show; None if none.
 
     Parameters
     ----------
     first, second : arrays (N, 2)
         Rays without NaN.
-    focal : float
-        px; distances are counted in it.
     deviation : float
-        px, beyond which a distance counts less.
+        Beyond which a distance of a ray counts less.
     """
     if len(first) < 40:
         return None
     weight = np.ones(len(first))
     for _ in range(_ROUNDS):
         matrix = essential(first, second, weight)
-        weight = 1.0 / np.sqrt(1.0 + (focal / deviation * sampson(matrix, first, second)) ** 2)
+        weight = 1.0 / np.sqrt(1.0 + (sampson(matrix, first, second) / deviation) ** 2)
     start = _pose_of(matrix, first, second)
     if start is None:
         return None
@@ -81,7 +79,7 @@ def relate(first: Array, second: Array, focal: float, deviation: float = 2.0) ->
 
     def errors(x: Array) -> Array:
         turned, moved = _stepped(rotation, translation, basis, x)
-        return focal / deviation * sampson(cross_matrix(moved) @ turned, first, second)
+        return sampson(cross_matrix(moved) @ turned, first, second) / deviation
 
     found = least_squares(errors, np.zeros(5), loss="soft_l1", max_nfev=30)
     rotation, translation = _stepped(rotation, translation, basis, found.x)

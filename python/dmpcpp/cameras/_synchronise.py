@@ -27,7 +27,10 @@ _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 @dataclass(frozen=True)
 class Shift:
-    """The second clock shows (1 + drift) tau + shift [s] when the first shows tau; `error` [px] left at it."""
+    """The second clock shows (1 + drift) tau + shift [s] when the first shows tau.
+
+    `error` is left at it, in deviations of a landmark.
+    """
 
     shift: float
     drift: float = 0.0
@@ -112,7 +115,7 @@ def _coarse(first: Landmarks, second: Landmarks, shift: float, relation: Relatio
     if len(a) < 40:
         return np.inf
     matrix = essential(a, b) if relation is None else cross_matrix(relation.translation) @ relation.rotation
-    return _mean_error(sampson(matrix, a, b), second.camera.focal)
+    return _mean_error(sampson(matrix, a, b), second.deviation)
 
 
 def _fine(first: Landmarks, second: Landmarks, shift: float, relation: Relation | None) -> float:
@@ -120,16 +123,15 @@ def _fine(first: Landmarks, second: Landmarks, shift: float, relation: Relation 
     thin = max(1, len(a) // 4000)
     a, b = a[::thin], b[::thin]
     if relation is None:
-        relation = relate(a, b, second.camera.focal)
+        relation = relate(a, b, second.deviation)
     if relation is None or len(a) < 40:
         return np.inf
-    return _mean_error(sampson(cross_matrix(relation.translation) @ relation.rotation, a, b), second.camera.focal)
+    return _mean_error(sampson(cross_matrix(relation.translation) @ relation.rotation, a, b), second.deviation)
 
 
-def _mean_error(error: Array, focal: float, deviation: float = 2.0) -> float:
-    """Return the pseudo-Huber mean [px] of distances: outliers count by their size, not its square."""
-    scaled = focal / deviation * error
-    return float(deviation * np.sqrt(np.mean(2.0 * (np.sqrt(1.0 + scaled**2) - 1.0))))
+def _mean_error(error: Array, deviation: float) -> float:
+    """Return the pseudo-Huber mean, in deviations, of distances: outliers count by their size, not its square."""
+    return float(np.sqrt(np.mean(2.0 * (np.sqrt(1.0 + (error / deviation) ** 2) - 1.0))))
 
 
 def _refined(cost, start: float, reach: float = 2.0 * _GRID):  # type: ignore[no-untyped-def]
@@ -150,7 +152,7 @@ def _with_drift(first: Landmarks, second: Landmarks, found: Shift, relation: Rel
     span = first.time[-1] - first.time[0]
     if span < _LONG:
         return found
-    known = relation or relate(*paired_rays(first, second, found), second.camera.focal)
+    known = relation or relate(*paired_rays(first, second, found), second.deviation)
     middle = first.time[0] + span / 2.0
     halves = [first.part(first.time < middle), first.part(first.time >= middle)]
     shifts = [_refined(lambda shift, half=half: _fine(half, second, shift, known), found.shift) for half in halves]

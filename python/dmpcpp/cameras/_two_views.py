@@ -13,12 +13,15 @@ from dmpcpp.cameras._relation import Relation
 
 __all__ = ["TWO_PALM", "fit_two_views", "frames_between", "triangulate"]
 
-TWO_PALM = (0, 1, 2, 5, 9, 13, 17)
-"""Landmarks of the fit with two cameras; the second joint of the thumb helps there."""
+TWO_PALM = (0, 1, 2, 5, 6, 9, 10, 13, 14, 17, 18)
+"""Landmarks of the fit with two cameras: the palm, and joints that count as far as they keep their places."""
 
 _FRAME = (TWO_PALM.index(0), TWO_PALM.index(5), TWO_PALM.index(9), TWO_PALM.index(17))
-_HOW = Fit(pixels=3.0, acceleration=6.0, turning=40.0)
+_HOW = Fit(acceleration=6.0, turning=40.0)
 _LEAST_SPREAD = 0.003  # m
+_ROUNDS = 4  # of weights, shape and poses
+_STRAYS = 2.5  # times as far as the usual landmark: from there on one counts less
+_MOST_UNSURE = 10.0
 
 
 def triangulate(first: Array, second: Array, relation: Relation) -> Array:
@@ -51,14 +54,30 @@ def fit_two_views(first: Landmarks, second: Landmarks, relation: Relation) -> Mo
     """
     points = triangulate(first.rays, second.rays, relation)
     palm, spread = palm_shape(points, TWO_PALM)
-    rotation, position = frames_between(first.time, *kabsch(palm, points[:, TWO_PALM]))
+    palm, unsure, poses = _rigid_part(points[:, TWO_PALM], palm)
+    rotation, position = frames_between(first.time, *poses)
     chosen = list(TWO_PALM)
     sights = [
-        Sight(first.rays[:, chosen], first.camera.focal, np.eye(3), np.zeros(3)),
-        Sight(second.rays[:, chosen], second.camera.focal, relation.rotation, relation.translation),
+        Sight(first.rays[:, chosen], first.deviation * unsure, np.eye(3), np.zeros(3)),
+        Sight(second.rays[:, chosen], second.deviation * unsure, relation.rotation, relation.translation),
     ]
     spread = np.maximum(spread, _LEAST_SPREAD)
     return fit_motion(first.time, sights, rotation, position, palm, spread, _HOW, _FRAME)
+
+
+def _rigid_part(points: Array, palm: Array) -> tuple[Array, Array, tuple[Array, Array]]:
+    """Return the shape (K, 3), how unsure each landmark is against the others (K,), and poses.
+
+    A joint that a finger moves strays from the rigid shape, and counts less.
+    """
+    unsure = np.ones(len(palm))
+    for _ in range(_ROUNDS):
+        rotation, position = kabsch(palm, points, unsure**-2.0)
+        own = np.einsum("tji,tkj->tki", rotation, points - position[:, None])
+        palm = np.nanmedian(own, axis=0)
+        strays = 1.4826 * np.sqrt(np.mean(np.nanmedian(np.abs(own - palm), axis=0) ** 2, axis=1))
+        unsure = np.clip(strays / max(_STRAYS * float(np.median(strays)), 1e-9), 1.0, _MOST_UNSURE)
+    return palm, unsure, (rotation, position)
 
 
 def frames_between(time: Array, rotation: Array, position: Array) -> tuple[Array, Array]:

@@ -11,6 +11,7 @@ import click
 from dmpcpp.cli._flags import in_flags
 from dmpcpp.cli._group import FAILED
 from dmpcpp.cli._tables import arm_line
+from dmpcpp.errors import InvalidArgument
 
 _OF_COMMANDS = ("velocity", "acceleration", "effort", "density", "dynamics")
 """Options of the commands that use an arm, which what to do names."""
@@ -52,15 +53,32 @@ def check_urdf(file: Path, base: str | None, tip: str | None, package_path: tupl
 
 
 @click.command()
+@click.option(
+    "--get",
+    type=click.Choice(["hand-model"]),
+    help="Obtain a part: the two public networks that find a hand in a video, out of the wheel of mediapipe 0.10.21.",
+)
+@click.option("--wheel", type=click.Path(path_type=Path), metavar="FILE", help="That wheel, where there is no network.")
 @click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON instead of the table.")
-def doctor(as_json: bool) -> None:
-    """Check the installation and list what is missing.
+def doctor(get: str | None, wheel: Path | None, as_json: bool) -> None:
+    """Check the installation and list what is missing, or obtain a part of it.
+
+    --get hand-model downloads 36 MB with pip, checks two networks of it (Apache License 2.0) by their sums, and keeps 8
+    MB in the user's cache (~/.cache/dmpcpp). Nothing is downloaded without it.
 
     Exit status: 0 the main job (`dmpcpp demo`) can be done, 3 something that it needs is missing.
 
-    Example: dmpcpp doctor
+    Example: dmpcpp doctor --get hand-model
     """
     from dmpcpp.doctor import examine
+
+    if wheel is not None and get is None:
+        raise InvalidArgument("--wheel: without --get it says nothing. State --get hand-model too.")
+    if get is not None:
+        from dmpcpp import cameras
+
+        click.echo(f"hand model: {cameras.get_hand_model(wheel)}")
+        return
 
     found = examine()
     if as_json:

@@ -115,6 +115,7 @@ def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> P
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
+@click.argument("second", required=False, type=click.Path(path_type=Path))
 @recording_options
 @preparation_options
 @placing_options
@@ -135,6 +136,8 @@ def _demo_folder(chosen: dict[str, str], base: str | None, tip: str | None) -> P
 @_run_options("dmpcpp-imitation")
 def imitate(file: Path, **options: Any) -> None:
     """Execute the motion in FILE, a recording in any format that `dmpcpp inspect` reads.
+
+    FILE may be a video of a hand, and SECOND another of the same motion from the side (extra cameras).
 
     Example: dmpcpp imitate reach.bvh --body RightHand --unit cm --arm panda --out reach
     """

@@ -32,6 +32,7 @@ _JITTER = 0.5  # of the usual step; a shorter one is worth a word
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
+@click.argument("second", required=False, type=click.Path(path_type=Path))
 @recording_options
 @preparation_options
 @click.option(
@@ -42,8 +43,8 @@ def inspect(file: Path, plot: str | None, as_json: bool, **options: Any) -> None
     """Show what FILE holds: bodies or markers, rate, gaps, jumps, noise, extent, and what is missing.
 
     FILE is a recording: BVH, C3D, TRC, MOT, ROS bag or MCAP, Qualisys TSV, Motive, Vicon, EuRoC or Aria CSV, TUM, a
-    table, .npy or .npz, a DeepMimic clip. Exit status: 0 ready to be learned, 2 unreadable, 3 something must be
-    specified or fixed first.
+    table, .npy or .npz, a DeepMimic clip, a video of a hand or a tag (SECOND: another of the same motion). Exit
+    status: 0 ready to be learned, 2 unreadable, 3 something must be specified or fixed first.
 
     Example: dmpcpp inspect lift.trc --markers WRIST,STYLr,STYLu --up-axis z
     """
@@ -68,7 +69,8 @@ def inspect(file: Path, plot: str | None, as_json: bool, **options: Any) -> None
 def _next_command(file: Path) -> str:
     """Return the command that carries the recording out, with what was stated here."""
     context = click.get_current_context()
-    words = ["dmpcpp", "imitate", str(file)]
+    second = context.params.get("second")
+    words = ["dmpcpp", "imitate", str(file), *([str(second)] if second else [])]
     for option in context.command.params:
         name = option.name or ""
         typed = context.get_parameter_source(name) is ParameterSource.COMMANDLINE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import click
@@ -63,7 +64,12 @@ _OPTIONS = (
     click.option(
         "--dataset", metavar="PATH[,PATH]", help="Arrays that hold the poses: one, or position and orientation."
     ),
-    click.option("--up-axis", "--up", metavar="x|y|z", help="The recording's axis that points up."),
+    click.option(
+        "--up-axis",
+        "--up",
+        metavar="x|y|z|image|..",
+        help="The recording's axis that points up; of a video image (the first camera stands level), board or tag:ID.",
+    ),
     click.option("--handedness", metavar="right|left", help="Handedness of the recording's frame (default: right)."),
     click.option("--quat-order", metavar="xyzw|wxyz", help="Order of the quaternions of an array."),
     click.option(
@@ -91,6 +97,30 @@ _OPTIONS = (
         help="Sort samples by their times, and of several at one time keep the first.",
     ),
     click.option("--mend-times", is_flag=True, default=None, hidden=True),  # its name before 0.2
+    click.option(
+        "--second-view", type=click.Path(path_type=Path), metavar="FILE", help="Second video, by another camera."
+    ),
+    click.option("--fov", metavar="69deg", help="Horizontal field of view of a video's camera; A,B: of two."),
+    click.option(
+        "--camera",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Calibration of a video's camera, TOML or JSON.",
+    ),
+    click.option(
+        "--hand-length", metavar="190mm", help="Crease of the wrist to tip of the middle finger, of a hand in a video."
+    ),
+    click.option("--board", metavar="5x7:30mm", help="Printed board that lies still in both videos: squares and side."),
+    click.option(
+        "--extrinsics", type=click.Path(path_type=Path), metavar="FILE", help="How two cameras stand, TOML or JSON."
+    ),
+    click.option("--pitch", metavar="15deg", help="By how much the first camera looks down, with --up image."),
+    click.option(
+        "--tag", metavar="ID:SIZE", help="Printed tags to follow in a video: 0:60mm, 0-4:40mm,cube:50mm, FILE."
+    ),
+    click.option(
+        "--mirrored", is_flag=True, default=None, help="The video is a mirror's, as selfie cameras make them."
+    ),
     click.option("--index", type=int, metavar="I", help="Which demonstration of an array (N, T, ..), from 0."),
 )
 NAMES = (
@@ -117,6 +147,15 @@ NAMES = (
     "skip_lines",
     "fixed_orientation",
     "sort_times",
+    "second_view",
+    "fov",
+    "camera",
+    "hand_length",
+    "board",
+    "extrinsics",
+    "pitch",
+    "tag",
+    "mirrored",
     "index",
 )
 
@@ -136,6 +175,10 @@ def taken_recording(options: dict[str, Any]) -> dict[str, Any]:
         click.echo("dmpcpp: --mend-times is --sort-times now.", err=True)
         options["sort_times"] = True
         click.get_current_context().params |= {"sort_times": True, "mend_times": None}  # what config.toml saves
+    if second := options.pop("second", None):
+        if options["second_view"] is not None:
+            raise InvalidArgument("SECOND, --second-view: both are stated, expected one of them.")
+        options["second_view"] = second
     taken = {name: value for name in NAMES if (value := options.pop(name)) is not None}
     for name in ("unit", "time_unit", "missing"):
         if name in taken:

@@ -55,6 +55,8 @@ class Recording:
         Which samples were measured, not filled in; all unless given. A missing one never was.
     kind : "", "capture", "tracker" or "video"
         What recorded it, where that is known.
+    accuracy : (float, float), optional
+        Root mean square errors [m], [rad] that its reader expects, of position and orientation; None: not known.
 
     Raises
     ------
@@ -74,6 +76,7 @@ class Recording:
     channels: Mapping[str, Array] = field(default_factory=dict)
     measured: NDArray[np.bool_] = None  # type: ignore[assignment]  # an array once it is made
     kind: SourceKind = ""
+    accuracy: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         """Take the arrays over as read-only float64 and check them."""
@@ -128,6 +131,11 @@ class Recording:
         """Which samples are missing (T,): NaN in all of position and rotation."""
         rotation = np.isnan(self.rotation).all(axis=(1, 2))
         return np.asarray(np.isnan(self.position).all(axis=1) & rotation)
+
+    @property
+    def approximate(self) -> str:
+        """Why the poses are a sketch and no measurement, "" where they are not."""
+        return next((note.text for note in map(Note.of, self.history) if note.about == "approximate"), "")
 
     def part(self, kept: slice | NDArray[np.bool_] | NDArray[np.int_], note: str) -> Recording:
         """Return the samples that are kept, channels too, counted from a time of 0, with `note` in the history."""

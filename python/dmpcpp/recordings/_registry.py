@@ -28,6 +28,7 @@ from dmpcpp.recordings._formats import (
     tum,
     umi,
     vicon,
+    video,
 )
 from dmpcpp.recordings._reader import Reader
 from dmpcpp.recordings._signatures import known_other
@@ -39,6 +40,7 @@ __all__ = ["READERS", "prepared", "reader_of", "summaries"]
 # From the format that its own first bytes name to the one that only its shape tells: the first to recognise a file
 # reads it.
 _ORDERED = (
+    video.READER,
     arrays.READER,
     c3d.READER,
     hdf5.READER,

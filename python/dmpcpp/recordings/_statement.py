@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from os import PathLike
 from typing import Literal
 
 import numpy as np
@@ -37,7 +38,8 @@ class Stated:
     time_unit : "s", "ms", "us", "ns", seconds per unit as a number, or None
         None: what the file says, or seconds, and steps outside 0.2 ms .. 0.4 s are refused as a likely slip.
     up_axis : "x", "y", "z" or None
-        The axis of the recording's world that points up. None: what the file says, or unknown.
+        The axis of the recording's world that points up. None: what the file says, or unknown. Of a video "image" (the
+        first camera stands level), "board" or "tag:ID" (it lies on the table).
     handedness : "right", "left" or None
         Of the world's axes. None: right. A left-handed recording is mirrored along a horizontal axis, for which
         `up_axis` must be known.
@@ -86,11 +88,29 @@ class Stated:
     sort_times : bool, optional
         Whether samples are put in the order of their times, and of several at one time the first counts. Otherwise
         such times are an error; a sample that is merely written twice is left out in any case.
+    second_view : path, optional
+        A second video of the same motion, by another camera.
+    fov : str or float, optional
+        Horizontal field of view of a video's camera: "69deg", or rad; of two cameras "69deg,60deg" where they differ.
+    camera : path, optional
+        A calibration file, TOML or JSON: matrix, size, distortion; or a list `cameras` of these.
+    hand_length : str or float, optional
+        From the crease of the wrist to the tip of the middle finger: "190mm", or m.
+    board : str, optional
+        A ChArUco board that lies still in both pictures: "5x7:30mm", columns x rows and the side of a square.
+    extrinsics : path, optional
+        How two cameras stand, TOML or JSON: rotation, translation [m], x_2 = rotation x_1 + translation.
+    pitch : str or float, optional
+        By how much the first camera looks down: "15deg", or rad; with up_axis="image".
+    tag : str, optional
+        Printed tags that are followed in place of the hand: "0:60mm", "0-4:40mm,cube:50mm", or a TOML file.
+    mirrored : bool, optional
+        Whether a video is a mirror's, as selfie cameras make them.
     """
 
     unit: str | float | None = None
     time_unit: str | float | None = None
-    up_axis: Axis | None = None
+    up_axis: Axis | str | None = None
     handedness: Handedness | None = None
     rate: float | None = None
     times: Literal["header", "received", "log"] | None = None
@@ -109,6 +129,15 @@ class Stated:
     index: int | None = None
     fixed_orientation: bool | None = None
     sort_times: bool | None = None
+    second_view: str | PathLike[str] | None = None
+    fov: str | float | None = None
+    camera: str | PathLike[str] | None = None
+    hand_length: str | float | None = None
+    board: str | None = None
+    extrinsics: str | PathLike[str] | None = None
+    pitch: str | float | None = None
+    tag: str | None = None
+    mirrored: bool | None = None
 
     def __post_init__(self) -> None:
         """Read `rotation` as `quat_order` or `euler_order` where it is one of theirs."""
