@@ -162,7 +162,7 @@ def body_errors(
 
     With `shape` after the best rigid alignment of the path, too.
     """
-    world = np.eye(3)
+    world = _turn_of(position, true_position) if shape else np.eye(3)
     for _ in range(8 if shape else 1):
         offset = Rotation.from_matrix(np.swapaxes(rotation, 1, 2) @ world.T @ true_rotation).mean().as_matrix()
         turned = world @ rotation @ offset
@@ -187,8 +187,11 @@ def _aligned(path: np.ndarray, truth: np.ndarray, rotation: np.ndarray) -> tuple
     rows = np.concatenate([rotation, np.broadcast_to(np.eye(3), rotation.shape)], axis=2).reshape(-1, 6)
     found = np.linalg.lstsq(rows, (truth - path).ravel(), rcond=None)[0]
     path = path + (rows @ found).reshape(-1, 3)
-    centre, middle = path.mean(axis=0), truth.mean(axis=0)
-    u, _, vt = np.linalg.svd((truth - middle).T @ (path - centre))
-    turn = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ vt
-    path = (path - centre) @ turn.T + middle
+    path = (path - path.mean(axis=0)) @ _turn_of(path, truth).T + truth.mean(axis=0)
     return path, truth - path
+
+
+def _turn_of(path: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Return the rotation (3, 3) that lays a path (T, 3) over another, about their means."""
+    u, _, vt = np.linalg.svd((truth - truth.mean(axis=0)).T @ (path - path.mean(axis=0)))
+    return u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ vt

@@ -17,7 +17,8 @@ from dmpcpp.cameras import Camera, Relation
 
 from benchmarks.hand_model import KNUCKLES, SPREAD, THUMB, HandMotion, hand_points
 
-_CELL = 0.0028  # m
+_CELLS = 0.0028, 0.0042  # m, of the skin: fine, and coarse for small pictures
+_SMALL = 600.0  # px of focal length
 _FINE = 2  # times as fine as the picture
 _RADII = np.array([[11.0, 9.8, 8.6, 7.2], [11.0, 10.0, 8.8, 7.4], [10.6, 9.5, 8.4, 7.1], [9.6, 8.5, 7.5, 6.4]]) * 1e-3
 _PALM_PARTS = [  # two ends [m] and two radii [m]
@@ -88,9 +89,9 @@ class _Skin:
 
 
 @cache
-def _skin() -> _Skin:
+def _skin(cell: float = _CELLS[0]) -> _Skin:
     low, high = np.array([-0.20, -0.085, -0.06]), np.array([0.215, 0.11, 0.045])
-    axes = [np.arange(a, b, _CELL) for a, b in zip(low, high, strict=True)]
+    axes = [np.arange(a, b, cell) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     values = _distance(grid.reshape(-1, 3)).reshape(grid.shape[:3])
     vertices, faces = _surface(grid, values)
@@ -176,9 +177,9 @@ def _shade(vertices: np.ndarray, normals: np.ndarray) -> np.ndarray:
     return shade
 
 
-def _posed(bend: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _posed(skin: _Skin, bend: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return vertices and normals of the hand with bent fingers (4,), in the palm's frame."""
-    skin, joints, rest = _skin(), hand_points(bend[None])[0], hand_points(np.zeros((1, 4)))[0]
+    joints, rest = hand_points(bend[None])[0], hand_points(np.zeros((1, 4)))[0]
     points, normals = skin.weights[:, :1] * skin.vertices, skin.weights[:, :1] * skin.normals
     for finger in range(4):
         along = np.array([np.cos(SPREAD[finger]), np.sin(SPREAD[finger]), 0.0])
@@ -190,10 +191,11 @@ def _posed(bend: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             c, s = np.cos(angle), np.sin(angle)
             to_axes = np.stack([c * along - s * up, side, s * along + c * up])
             turn = to_axes.T @ from_axes
-            weight = skin.weights[:, 1 + 3 * finger + k, None]
+            near = np.flatnonzero(skin.weights[:, 1 + 3 * finger + k] > 1e-3)
+            weight = skin.weights[near, 1 + 3 * finger + k, None]
             start = 5 + 4 * finger + k
-            points = points + weight * ((skin.vertices - rest[start]) @ turn.T + joints[start])
-            normals = normals + weight * (skin.normals @ turn.T)
+            points[near] += weight * ((skin.vertices[near] - rest[start]) @ turn.T + joints[start])
+            normals[near] += weight * (skin.normals[near] @ turn.T)
     return points, normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
@@ -223,7 +225,7 @@ class Scene:
         tones = np.array([[150.0, 180.0, 232.0], [120.0, 150.0, 205.0], [95.0, 125.0, 180.0], [160.0, 185.0, 225.0]])
         light = rng.normal(0.0, 0.6, 3) + [0.0, -0.9, -1.0]
         return Scene(
-            np.clip(picture, 0.0, 255.0),
+            np.clip(picture, 0.0, 255.0).astype(np.float32),
             tones[rng.integers(len(tones))] * rng.uniform(0.92, 1.05),
             light / np.linalg.norm(light),
             float(rng.uniform(0.45, 0.6)),
@@ -235,8 +237,8 @@ def draw_hand(
     picture: np.ndarray, scene: Scene, camera: Camera, rotation: np.ndarray, position: np.ndarray, bend: np.ndarray
 ) -> np.ndarray:
     """Return the picture (H, W, 3) with the hand at a pose in the camera's axes drawn over it."""
-    points, normals = _posed(bend)
-    skin = _skin()
+    skin = _skin(_CELLS[camera.focal < _SMALL])
+    points, normals = _posed(skin, bend)
     seen, normals = points @ rotation.T + position, normals @ rotation.T
     lit = scene.ambient + 0.62 * np.clip(normals @ scene.light, 0.0, 1.0) + 0.08 * np.clip(-normals[:, 2], 0.0, 1.0)
     bright = skin.colour * lit
@@ -284,6 +286,7 @@ def pictures_of(
     rng = np.random.default_rng([seed, 5])
     scene = Scene.of_seed(seed, camera.size, grain)
     moments = np.linspace(-0.5, 0.5, shots) * exposure if exposure else np.zeros(1)
+    noise = grain * rng.standard_normal((4, *scene.background.shape), dtype=np.float32)
     moved = [motion.at(motion.time + moment) if exposure else motion for moment in moments]
     turn, shift = (np.eye(3), np.zeros(3)) if relation is None else (relation.rotation, relation.translation)
     for k in range(len(motion.time)):
@@ -291,8 +294,9 @@ def pictures_of(
             draw_hand(scene.background, scene, camera, turn @ m.rotation[k], turn @ m.position[k] + shift, m.bend[k])
             for m in moved
         ]
-        noisy = np.mean(drawn, axis=0) + grain * rng.standard_normal(drawn[0].shape, dtype=np.float32)
-        yield np.clip(noisy, 0.0, 255.0).astype(np.uint8)
+        picture = drawn[0] if len(drawn) == 1 else np.mean(drawn, axis=0)
+        grained = picture + np.roll(noise[rng.integers(4)], rng.integers(0, 97, 2), axis=(0, 1))
+        yield np.clip(grained, 0.0, 255.0).astype(np.uint8)
 
 
 def write_video(path: Path, pictures, rate: float) -> None:

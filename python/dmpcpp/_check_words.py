@@ -111,8 +111,19 @@ def figure(value: float | None, unit: str, name: str = "") -> str:
 
 
 def figures_of(summary: Mapping[str, Any]) -> list[Figure]:
-    """Return how close, how fast and how near to limits a run was, and what was changed, from its summary.json."""
-    return [_closeness(summary["stages"]), _speed(summary), _nearness(summary["checks"]), _changes(summary)]
+    """Return how close, how fast and how near to limits a run was, and what was changed, from its summary.json.
+
+    Of a recording that says how accurate it is, that comes second.
+    """
+    close, rest = _closeness(summary["stages"]), (_speed(summary), _nearness(summary["checks"]), _changes(summary))
+    return [close, *_truth(summary["recording"].get("accuracy")), *rest]
+
+
+def _truth(accuracy: Mapping[str, float] | None) -> list[Figure]:
+    if not accuracy:
+        return []
+    number = f"{_short(1e3 * accuracy['position'])} mm, {_short(math.degrees(accuracy['angle']))}°"
+    return [Figure("How true", number, "the recording itself against the person, rms, as its reader estimates")]
 
 
 def _closeness(stages: Mapping[str, Mapping[str, float]]) -> Figure:

@@ -64,7 +64,9 @@ def _litert(path: Path, outputs: tuple[str, ...]) -> Net:
 def _opencv(path: Path, outputs: tuple[str, ...]) -> Net:
     from dmpcpp.cameras._opencv import opencv
 
-    net = opencv().dnn.readNetFromTFLite(str(path))
+    dnn = opencv().dnn
+    classic = {"engine": dnn.ENGINE_CLASSIC} if hasattr(dnn, "ENGINE_CLASSIC") else {}  # of OpenCV 5: all outputs
+    net = dnn.readNetFromTFLite(str(path), **classic)
 
     def run(image: Image) -> list[Image]:
         net.setInput(np.ascontiguousarray(image.transpose(2, 0, 1))[None])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +19,9 @@ from dmpcpp.cameras._fit import Motion
 from dmpcpp.cameras._frames import Video, open_video
 from dmpcpp.cameras._landmarks import Landmarks, chain_length
 from dmpcpp.cameras._one_view import fit_one_view
+from dmpcpp.cameras._palm import kabsch
 from dmpcpp.cameras._relation import Relation, relate
-from dmpcpp.cameras._setup import level_world
+from dmpcpp.cameras._setup import level_world, require_up
 from dmpcpp.cameras._synchronise import Shift, paired_rays, synchronise
 from dmpcpp.cameras._tags import up_of_tag
 from dmpcpp.cameras._two_views import fit_two_views, triangulate
@@ -32,11 +33,12 @@ __all__ = ["Found", "HandSetup", "Poses", "band_limited", "hand_poses", "poses_o
 _CHAIN = 0.94
 """The net's hand, wrist to fingertip, over the true one: found on rendered hands."""
 
-_UNSURE_SCALE = 0.04  # relative, of a stated hand length and that factor
+_UNSURE_SCALE = 0.03  # relative, of a stated hand length and that factor
 _SAME_MOTION = 3.0  # reprojection in deviations, above which two views do not show one hand
 _MOST_MOVED = 0.006  # of the picture's width
 _LONGEST_GAP = 0.25  # s; what is longer is missing
 _LEAST_TOGETHER = 1.0  # s
+_PARTS = 5  # of the time, left out one by one to see what the relation of the cameras hangs on
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +46,8 @@ class Poses:
     """Poses of a body at even times.
 
     `time` (T,) [s] from 0, `rotation` (T, 3, 3), `position` (T, 3) [m], NaN where missing; `up_axis` of their world;
-    `notes` what was done; `accuracy` what is known; `approximate` why they are a sketch, "" where they are not.
+    `notes` what was done; `accuracy` what is known; `approximate` why they are a sketch, "" where they are not;
+    `begin` [s] what the first video's clock shows at time 0.
     """
 
     time: Array
@@ -54,6 +57,7 @@ class Poses:
     notes: tuple[Note, ...]
     accuracy: Accuracy
     approximate: str = ""
+    begin: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -97,6 +101,7 @@ def hand_poses(paths: list[Path], setup: HandSetup) -> Poses:
     MissingDependency
         OpenCV or the hand model is missing.
     """
+    require_up(setup.up)
     videos = [open_video(path) for path in paths]
     relation, normal = _stand(videos, setup)
     watched = []
@@ -106,10 +111,11 @@ def hand_poses(paths: list[Path], setup: HandSetup) -> Poses:
             watched.append(watch_hand(video, camera, hand=setup.hand, mirrored=setup.mirrored))
         except InvalidArgument as error:
             raise within(video.path.name, error) if len(videos) > 1 else error from None
-    flipped = setup.mirrored != (setup.hand == "left")
-    relation = _in_mirror(relation) if flipped and relation is not None else relation
+    left = setup.hand == "left"  # tracked as a right one, in a mirror
+    relation = relation or setup.relation
+    relation = _in_mirror(relation) if left and relation is not None else relation
     found = poses_of_views([each.landmarks for each in watched], setup, relation, normal)
-    poses = _mirrored(found, setup) if flipped else found
+    poses = _mirrored(found, setup) if left else found
     return _with_notes(poses, watched)
 
 
@@ -117,8 +123,7 @@ def poses_of_views(
     views: list[Landmarks], setup: HandSetup, relation: Relation | None = None, normal: Array | None = None
 ) -> Poses:
     """Return the poses from landmarks of one view or two; `relation` and `normal` (up) as a board showed them."""
-    relation = relation or setup.relation
-    found = _two(views[0], views[1], setup, relation) if len(views) == 2 else _one(views[0], setup)
+    found = _two(views[0], views[1], setup, relation or setup.relation) if len(views) == 2 else _one(views[0], setup)
     turn, axis, words = level_world(setup.up, setup.pitch, normal)
     return band_limited(found, turn, axis, words)
 
@@ -143,9 +148,10 @@ def _two(first: Landmarks, second: Landmarks, setup: HandSetup, relation: Relati
     if shift is None:
         raise _different(first, second)
     notes = [Note("changed", _shift_words(shift, first, second))]
-    unsure = 0.0
+    unsure, bent = 0.0, 0.0
     if relation is None:
         relation, unsure = _related(first, second, shift, setup), _UNSURE_SCALE
+        bent = _bent(first, second, shift, setup, relation)
         notes.append(
             Note(
                 "changed",
@@ -171,6 +177,7 @@ def _two(first: Landmarks, second: Landmarks, setup: HandSetup, relation: Relati
     if unsure == 0.0 and setup.hand_length is not None:
         notes += _length_doubts(chain, setup.hand_length)
     accuracy = accuracy_of(motion, unsure)
+    accuracy = Accuracy(float(np.hypot(accuracy.position, bent)), accuracy.angle)
     return Found(first.time, motion, seen, _position_noise(motion), accuracy, notes)
 
 
@@ -183,6 +190,32 @@ def _related(first: Landmarks, second: Landmarks, shift: Shift, setup: HandSetup
     other = second.at(shift.second(first.time))
     chain = chain_length(triangulate(first.rays, other.rays, found))
     return Relation(found.rotation, found.translation * _CHAIN * setup.hand_length / chain, found.error)
+
+
+def _bent(first: Landmarks, second: Landmarks, shift: Shift, setup: HandSetup, relation: Relation) -> float:
+    """Return how far the cameras' relation may bend the path [m rms]: a jackknife over parts of the time.
+
+    Source: B. Efron, The jackknife, the bootstrap and other resampling plans (1982). A part is longer than the errors of
+    landmarks hang together.
+    """
+    whole = _middles(first, second, shift, relation)
+    squares = 0.0
+    for part in np.array_split(np.arange(len(first.time)), _PARTS):
+        pixels = first.pixels.copy()
+        pixels[part] = np.nan
+        try:
+            other = _middles(first, second, shift, _related(replace(first, pixels=pixels), second, shift, setup))
+        except InvalidArgument:
+            return float(np.linalg.norm(np.ptp(whole, axis=0)))
+        turn, place = kabsch(other, whole[None])
+        squares += float(np.mean(np.sum((other @ turn[0].T + place[0] - whole) ** 2, axis=1)))
+    return float(np.sqrt((_PARTS - 1) / _PARTS * squares))
+
+
+def _middles(first: Landmarks, second: Landmarks, shift: Shift, relation: Relation) -> Array:
+    """Return the knuckle of the middle finger (N, 3) in the frames that both saw."""
+    path = triangulate(first.rays[:, 9], second.at(shift.second(first.time)).rays[:, 9], relation)
+    return path[np.isfinite(path).all(axis=1)]
 
 
 def _one(view: Landmarks, setup: HandSetup) -> Found:
@@ -228,7 +261,9 @@ def band_limited(found: Found, turn: Array, axis: str, words: str) -> Poses:
         notes.append(Note("changed", f"estimated accuracy: {said}, but for a constant offset of the hand"))
     if lost.any():
         notes.append(Note("changed", f"{int(lost.sum())} of {len(lost)} samples are missing: no camera saw the hand"))
-    return Poses(wanted - wanted[0], rotation, position, axis, tuple(notes), found.accuracy, found.approximate)
+    return Poses(
+        wanted - wanted[0], rotation, position, axis, tuple(notes), found.accuracy, found.approximate, float(wanted[0])
+    )
 
 
 def _in_gaps(time: Array, seen: NDArray[np.bool_], wanted: Array) -> NDArray[np.bool_]:
@@ -273,18 +308,16 @@ def _in_mirror(relation: Relation) -> Relation:
 
 
 def _mirrored(poses: Poses, setup: HandSetup) -> Poses:
-    """Return the poses of a hand that was tracked in a mirror.
+    """Return the poses of a left hand that was tracked in a mirror.
 
     The world is mirrored back sideways. A left hand's frame is the mirror image of a right one's, its y axis turned
-    about, so that it is a rotation; a right hand in a mirrored video keeps its own.
+    about, so that it is a rotation.
     """
     side = {"x": 0, "y": 0, "z": 1}[poses.up_axis] if setup.up not in ("x", "y", "z") else 0
     flip = np.ones(3)
     flip[side] = -1.0
     rotation = flip[:, None] * poses.rotation * np.array([1.0, -1.0, 1.0])
-    return Poses(
-        poses.time, rotation, flip * poses.position, poses.up_axis, poses.notes, poses.accuracy, poses.approximate
-    )
+    return replace(poses, rotation=rotation, position=flip * poses.position)
 
 
 def _with_notes(poses: Poses, watched: list[Watched]) -> Poses:
@@ -297,9 +330,7 @@ def _with_notes(poses: Poses, watched: list[Watched]) -> Poses:
                 "stabilisation is on. Fix the camera and turn stabilisation off"
             )
             notes.append(Note("warning", said))
-    return Poses(
-        poses.time, poses.rotation, poses.position, poses.up_axis, tuple(notes), poses.accuracy, poses.approximate
-    )
+    return replace(poses, notes=tuple(notes))
 
 
 def _shift_words(shift: Shift, first: Landmarks, second: Landmarks) -> str:

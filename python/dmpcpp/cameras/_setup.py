@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from dmpcpp.cameras._relation import Relation
 from dmpcpp.cameras._units import angle, length
 from dmpcpp.errors import InvalidArgument
 
-__all__ = ["camera_from_file", "hand_length", "level_world", "relation_from_file", "tags_from_file"]
+__all__ = ["camera_from_file", "hand_length", "level_world", "relation_from_file", "require_up", "tags_from_file"]
 
 _HANDS = (0.12, 0.26)  # m, from a child's to the longest
 
@@ -117,6 +118,18 @@ def level_world(said: str, pitch: str | float | None, normal: Array | None = Non
         forward = np.array([0.0, -1.0, 0.0]) + up[1] * up
     x = forward / np.linalg.norm(forward)
     return np.stack([x, np.cross(up, x), up]), "z", words
+
+
+def require_up(said: str) -> None:
+    """Refuse what `level_world` cannot take, before a video is read.
+
+    Raises
+    ------
+    InvalidArgument
+        It is none of the words.
+    """
+    if said not in ("x", "y", "z", "image", "board") and not re.fullmatch(r"tag:\d+", said):
+        raise InvalidArgument(f"up_axis: {said!r}, expected image, board, tag:ID, x, y or z.")
 
 
 def _table(name: str, path: str | Path) -> dict[str, Any]:

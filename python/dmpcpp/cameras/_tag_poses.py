@@ -14,7 +14,7 @@ from dmpcpp.cameras._camera import Camera
 from dmpcpp.cameras._fit import Motion
 from dmpcpp.cameras._frames import open_video
 from dmpcpp.cameras._poses import Found, Poses, band_limited
-from dmpcpp.cameras._setup import level_world
+from dmpcpp.cameras._setup import level_world, require_up
 from dmpcpp.cameras._tags import TagFinder, body_of_tags, up_of_tag
 from dmpcpp.cameras._two_views import frames_between
 from dmpcpp.errors import InvalidArgument
@@ -48,6 +48,7 @@ def tag_poses(path: Path, setup: TagSetup) -> Poses:
     MissingDependency
         OpenCV is missing.
     """
+    require_up(setup.up)
     tags = body_of_tags(setup.tags)
     video = open_video(path)
     camera = setup.camera(video.size)

@@ -132,12 +132,19 @@ class Imitation(Checked):
         return self.evidence.noise
 
     @property
+    def verdict_word(self) -> str:
+        """How a person is told; of a recording that is a sketch "verified, approximate"."""
+        word = super().verdict_word
+        return word.replace("verified", "verified, approximate", 1) if self.ok and self.recording.approximate else word
+
+    @property
     def changed(self) -> tuple[str, ...]:
         """Parts of the arm's description that were replaced or are missing: inertias, with the size of the change."""
         return tuple(simulation.inertia_notes(self.log.inertia_repairs)) if self["inertia"].ok else ()
 
     def summary(self) -> dict[str, Any]:
         """Return what `summary.json` holds; m and rad."""
+        accuracy = self.recording.accuracy
         return {
             **self.judged(),
             "stages": {name: errors.to_dict() for name, errors in self.stages.items()},
@@ -154,7 +161,9 @@ class Imitation(Checked):
                 "noise": {"position": self.noise.position, "angle": self.noise.angle},
                 "evidence": self.evidence.to_dict(),
                 "history": list(self.recording.history),
+                "accuracy": dict(zip(("position", "angle"), accuracy, strict=True)) if accuracy else None,
             },
+            "approximate": self.recording.approximate,
             "basis_count": self.model.options.basis_count,
             "regression": self.model.options.regression.name,
             "derivatives": self.model.options.derivatives.name,

@@ -103,7 +103,10 @@ def _word(run: RunFolder) -> tuple[str, str]:
     if not run.ok:
         return "Not verified", "bad"
     left = run.named("not judged")
-    return (f"Verified, not judged: {', '.join(left)}", "doubtful") if left else ("Verified", "good")
+    word = "Verified, approximate" if run.summary.get("approximate") else "Verified"
+    if left:
+        return f"{word}, not judged: {', '.join(left)}", "doubtful"
+    return word, "doubtful" if run.summary.get("approximate") else "good"
 
 
 def _said(run: RunFolder) -> str:
@@ -119,6 +122,7 @@ def _caveats(summary: dict[str, Any]) -> str:
     """What was not judged, and which limits were assumed."""
     unjudged = [check for check in summary["checks"] if result_of(check) == "not judged"]
     lines = [f"Not judged: {check['name']}: {check['detail']}" for check in unjudged]
+    lines += [f"{said[0].upper()}{said[1:]}." for said in (summary.get("approximate"),) if said]
     lines += [f"Assumed: {what}." for what in summary.get("assumed", ())]
     lines += [f"Changed: {what}." for what in summary.get("changed", ())]
     return f"<ul>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</ul>" if lines else ""
