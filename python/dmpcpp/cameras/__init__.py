@@ -6,7 +6,7 @@ imported where a video is opened, not before: the geometry works without them.
 
 from dmpcpp.cameras._accuracy import Accuracy, accuracy_of
 from dmpcpp.cameras._band import band_of, even_times, smoothed
-from dmpcpp.cameras._boards import Board, board_of
+from dmpcpp.cameras._boards import Board, board_of, charuco, stand_of_board
 from dmpcpp.cameras._camera import Camera
 from dmpcpp.cameras._fit import Motion
 from dmpcpp.cameras._frames import Video, open_video
@@ -18,6 +18,7 @@ from dmpcpp.cameras._palm import kabsch, palm_frame
 from dmpcpp.cameras._poses import HandSetup, Poses, hand_poses, poses_of_views
 from dmpcpp.cameras._relation import Relation, relate
 from dmpcpp.cameras._setup import camera_from_file, hand_length, relation_from_file
+from dmpcpp.cameras._sheet import print_board, print_tags
 from dmpcpp.cameras._synchronise import Shift, paired_rays, synchronise
 from dmpcpp.cameras._tag_poses import TagSetup, tag_poses
 from dmpcpp.cameras._tags import Tag, TagFinder, body_of_tags
@@ -54,6 +55,7 @@ __all__ = [
     "body_of_tags",
     "camera_from_file",
     "chain_length",
+    "charuco",
     "even_times",
     "fit_one_view",
     "fit_two_views",
@@ -66,9 +68,12 @@ __all__ = [
     "paired_rays",
     "palm_frame",
     "poses_of_views",
+    "print_board",
+    "print_tags",
     "relate",
     "relation_from_file",
     "smoothed",
+    "stand_of_board",
     "synchronise",
     "tag_poses",
     "triangulate",

@@ -193,10 +193,10 @@ def _related(first: Landmarks, second: Landmarks, shift: Shift, setup: HandSetup
 
 
 def _bent(first: Landmarks, second: Landmarks, shift: Shift, setup: HandSetup, relation: Relation) -> float:
-    """Return how far the cameras' relation may bend the path [m rms]: a jackknife over parts of the time.
+    """Return how far the cameras' relation may bend the path [m rms]: a jackknife over parts of time.
 
-    Source: B. Efron, The jackknife, the bootstrap and other resampling plans (1982). A part is longer than the errors of
-    landmarks hang together.
+    Source: B. Efron, The jackknife, the bootstrap and other resampling plans (1982). A part lasts longer than errors of
+    landmarks do.
     """
     whole = _middles(first, second, shift, relation)
     squares = 0.0

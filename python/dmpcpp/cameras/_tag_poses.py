@@ -23,7 +23,7 @@ __all__ = ["TagSetup", "tag_poses"]
 
 _LEAST_FOUND = 12  # frames
 _LEAST_SHARE = 0.3
-_SHARP = 1.6  # px, width of an edge; beyond, the tag is blurred
+_SHARP = 1.1  # px, width of an edge; beyond, the tag is blurred
 _LOST = 10  # frames after which the last pose says nothing of the next
 _WORTH_A_WARNING = 0.5  # px rms
 

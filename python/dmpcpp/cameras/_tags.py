@@ -211,7 +211,7 @@ class TagFinder:
 
 
 def edge_corners(grey: Any, corners: Array, camera: Camera | None = None) -> tuple[Array, float]:
-    """Return the corners (4, 2) [px] where lines along the sides' edges cross, and the edges' width [px].
+    """Return the corners (4, 2) [px] where lines along the sides' edges cross, and the width [px] of the widest edge.
 
     Along each side the picture is sampled across at 24 stations; an edge lies at the mean of the places weighted by
     how much brighter it gets there, outwards. Lines are fitted by total least squares, without the distortion of a
@@ -231,7 +231,7 @@ def edge_corners(grey: Any, corners: Array, camera: Camera | None = None) -> tup
         crossed = _bent(crossed, camera)
         if not np.isfinite(crossed).all() or np.abs(crossed - corners).max() > 4.0:
             return corners, width
-        corners, width = crossed, float(np.median(widths))
+        corners, width = crossed, float(max(widths))
     return corners, width
 
 

@@ -1,5 +1,5 @@
 """The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | run | verify |
-view | report | batch | arms | check-urdf | doctor | fetch | example`.
+view | report | batch | arms | check-urdf | doctor | fetch | tag | example`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -19,6 +19,7 @@ from dmpcpp.cli._learning import fit, plan
 from dmpcpp.cli._reproduction import reproduce
 from dmpcpp.cli._run import run
 from dmpcpp.cli._show import report, view
+from dmpcpp.cli._tag import tag
 from dmpcpp.cli._verification import verify
 
 __all__ = ["main"]
@@ -41,6 +42,7 @@ _COMMANDS = (
     check_urdf,
     doctor,
     fetch,
+    tag,
     example,
 )
 
