@@ -20,6 +20,7 @@ GROUPS = {
         "ik_angle_residual": "inverse kinematics off the orientation, largest",
         "path_self_clearance": "room between the arm's links, least",
         "path_floor_clearance": "room above the floor, least",
+        "path_object_clearance": "room to obstacles, least",
     },
     "Limits": {
         "joint_margin": "joint from the end of its range, least",

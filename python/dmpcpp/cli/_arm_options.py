@@ -84,7 +84,7 @@ def follow_option(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def contact_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Add --floor and --ignore-contact."""
+    """Add --floor, --ignore-contact and --obstacle."""
     options = (
         click.option(
             "--floor",
@@ -99,28 +99,45 @@ def contact_options(command: Callable[..., None]) -> Callable[..., None]:
             metavar="A,B",
             help="Two links that may touch, or a link and floor; repeatable. An .srdf beside the URDF is read, too.",
         ),
+        click.option(
+            "--obstacle",
+            multiple=True,
+            metavar="SHAPE|FILE",
+            help="What the arm must not touch: sphere:X,Y,Z,R, box:X,Y,Z,SX,SY,SZ[,QW,QX,QY,QZ], capsule:X1,Y1,Z1,X2,"
+            "Y2,Z2,R, plane:X,Y,Z,NX,NY,NZ [m, in the frame of the URDF's root], a .yaml list or a scene's .urdf; "
+            "repeatable.",
+        ),
+        click.option(
+            "--obstacle-margin",
+            metavar="M",
+            default=0.01,
+            show_default=True,
+            type=click.FloatRange(0.0, 10.0, min_open=True),
+            help="How far a planned motion stays away from each --obstacle [m].",
+        ),
     )
     return add_options(command, options)
 
 
 def taken_surroundings(options: dict[str, Any]) -> Surroundings:
-    """Take --floor and --ignore-contact out of a command's arguments."""
-    from dmpcpp.robot import Surroundings
+    """Take --floor, --ignore-contact and --obstacle out of a command's arguments."""
+    from dmpcpp.robot import Surroundings, obstacles_of
 
     floor, pairs = options.pop("floor"), options.pop("ignored")
     ignored = tuple(tuple(name.strip() for name in pair.split(",")) for pair in pairs)
     for pair, text in zip(ignored, pairs, strict=True):
         if len(pair) != 2 or not all(pair):
             raise InvalidArgument(f"--ignore-contact: '{text}', expected two links such as head,right_l1.")
+    obstacles, margin = obstacles_of(options.pop("obstacle")), options.pop("obstacle_margin")
     if floor is None or floor == "none":
-        return Surroundings("auto" if floor is None else None, ignored)
+        return Surroundings("auto" if floor is None else None, ignored, obstacles, margin)
     try:
         height = float(floor)
     except ValueError:
         height = math.nan
     if not math.isfinite(height):
         raise InvalidArgument(f"--floor: '{floor}', expected a height in m such as -0.05, or none.")
-    return Surroundings(height, ignored)
+    return Surroundings(height, ignored, obstacles, margin)
 
 
 def taken_choice(options: dict[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import sys
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -107,7 +106,7 @@ def fit(
     numbers, found = _takes(files, taken_recording(options), preparation, leave_out)
     if options["arm"] is not None:
         around = taken_surroundings(options)
-        engine = partial(simulation.default_simulator, floor=around.floor, ignored=around.ignored)
+        engine = around.in_world(simulation.default_simulator)
         found = planning.placed(
             found, taken_arm(options), scale=scale_range(scale), seed=seed, engine=engine, follow=options["follow"]
         )
@@ -297,7 +296,8 @@ def plan(
         start=numbers("--from-joints", from_joints) if from_joints else None,
         slow_down=not exact_duration,
         **taken_tempo(arm),
-        simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
+        simulator=engine,
+        surroundings=around,
         follow=arm["follow"],
         accept=names(accept),
         via=planning.at_phases(learned, map(_via, via), end) if via else (),
@@ -327,6 +327,8 @@ def _print_plan(found: JointPlan, out: Path) -> None:
         console.print(as_typed(found.scaling.describe()), style="dim", soft_wrap=True, markup=False)
         for note in found.scaling.notes:
             console.print(note, style="yellow", soft_wrap=True, markup=False)
+    if found.detour:
+        console.print(found.detour.describe(), style="yellow", soft_wrap=True, markup=False)
     print_checks(console, found.checks)
     duration = f"{found.joints.time[-1]:.2f} s, {found.slowdown:.2f} x the requested duration"
     if found.tempo:

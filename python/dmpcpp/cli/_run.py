@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import time
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -103,11 +102,13 @@ def run(
     if options["arm"] is None:
         raise InvalidArgument("--arm: not given, and there is no config.toml beside the plan. State the arm.")
     around, chosen = taken_surroundings(options), taken_arm(options)
-    engine = partial(_engine(simulator), floor=around.floor, ignored=around.ignored)
+    engine = around.in_world(_engine(simulator))
     stands = numbers("--from-joints", from_joints, chosen.joint_count) if from_joints else joints.position[0]
     robot = running.robot_at(address, chosen, stands, engine=engine)
     try:
-        found = _briefed(robot, chosen, joints, speed, lambda limited: clear_of_itself(limited, engine).keeps_clear)
+        found = _briefed(
+            robot, chosen, joints, speed, lambda limited: clear_of_itself(limited, engine, around.margin).keeps_clear
+        )
         _print_briefing(found, chosen)
         if found.problems:
             raise InvalidArgument(found.problems[0])

@@ -7,7 +7,6 @@ import math
 import sys
 from collections.abc import Callable
 from dataclasses import fields
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -103,7 +102,7 @@ def verify(
         verification.read_log(log, **options, joints=robot.joint_names),
         tolerances=tolerances,
         cutoff=low_pass,
-        simulator=partial(engine, floor=around.floor, ignored=around.ignored) if engine else None,
+        simulator=around.in_world(engine) if engine else None,
         follow=arm["follow"] or "pose",
         accept=names(accept),
     )

@@ -28,6 +28,7 @@ from dmpcpp.motion import Noise
 from dmpcpp.planning import (
     DEFAULT_TOLERANCE,
     Cycles,
+    Detour,
     Engine,
     Fitted,
     LookedAt,
@@ -36,14 +37,17 @@ from dmpcpp.planning import (
     Tempo,
     Tolerance,
     clear_of_itself,
+    place_among,
     require_free_postures,
     solve,
+    solve_around,
     tempo_check,
 )
 from dmpcpp.planning import place as place_motion
 from dmpcpp.recordings import Recording
 from dmpcpp.robot import (
     Follow,
+    Obstacle,
     Surroundings,
     assumptions,
     following,
@@ -106,6 +110,10 @@ class Imitation(Checked):
         Where the motion is slower than the person's, and by how much.
     fit : Fitted or None
         How far the plan is from the learned path; None where it is the learned path.
+    obstacles : tuple of Obstacle
+        What the motion keeps clear of.
+    detour : Detour or None
+        How it was led around them.
     """
 
     recording: Recording
@@ -125,6 +133,8 @@ class Imitation(Checked):
     calmer: Calmer | None = None
     tempo: Tempo | None = None
     fit: Fitted | None = None
+    obstacles: tuple[Obstacle, ...] = ()
+    detour: Detour | None = None
 
     @property
     def noise(self) -> Noise:
@@ -177,6 +187,8 @@ class Imitation(Checked):
             "second_simulator": self.second_log.simulator if self.second_log else None,
             "mode": self.log.mode,
             "caveat": self.log.caveat,
+            "obstacles": [obstacle.to_dict() for obstacle in self.obstacles],
+            "detour": self.detour.to_dict() if self.detour else None,
             "limits": limits_summary(self.log.arm),
             "assumed": list(assumptions(self.log.arm)),
             "changed": list(self.changed),
@@ -240,7 +252,9 @@ def imitate(
         "none" carries the joints out by position, without masses and torques: for arms whose inertias nobody states.
         Torque and inertia are then not judged, which this accepts.
     surroundings : Surroundings, optional
-        Where the floor lies, and which pairs of links may touch.
+        Where the floor lies, which pairs of links may touch, and obstacles: the motion is placed clear of them, or led
+        around them (`planning.solve_around`), and the whole arm keeps `margin` from them, on its way from and to rest,
+        too. They are real bodies in the simulation.
     follow : str, optional
         "pose", "axis", "axis:x", .. or "position": the part of each pose that the arm follows. An arm with fewer
         than six joints needs it.
@@ -270,14 +284,15 @@ def imitate(
     """
     followed = following(arm, follow)
     tell = progress or (lambda stage, done: None)
-    engines = _engines(simulator or default_engine(), surroundings or Surroundings())
+    around = surroundings or Surroundings()
+    engines = _engines(simulator or default_engine(), around)
     accepted, mode = accepted_names(accept), _mode(dynamics)
     if dynamics == "none":
         arm, accepted = without_dynamics(arm), accepted_names((*accepted, *_OF_DYNAMICS))
     require_holdable(arm)
     tell("place", 0.0)
     looked_at = require_free_postures(arm, engines[0])
-    clear = clear_of_itself(arm, engines[0])
+    clear = clear_of_itself(arm, engines[0], around.margin)
     recording = learnable(recording, smooth=smooth, keep_rests=keep_rests or cycles is not None)
     if cycles is not None:
         if others:
@@ -287,7 +302,7 @@ def imitate(
         recording = motion.one_cycle(recording, minimum_period)
     if place is True:
         place = partial(place_motion, seed=seed, scale=scale, follow=followed)
-    placement = place(recording, arm, accept=clear) if place else None
+    placement = place_among(place, recording, arm, clear, around, engines[0]) if place else None
     placed = placement.apply_to(recording) if placement else recording
     tell("learn", 0.0)
     demonstration = motion.demonstration(placed)
@@ -307,12 +322,15 @@ def imitate(
         engine=engines[0],
         follow=followed,
     )
-    solution = ways(Cycles(model, cycles) if cycles is not None else model)
+    led = Cycles(model, cycles) if cycles is not None else model
+    solution, detour = solve_around(partial(ways, led), led, arm, around, clear)
     less = None
     if smooth and cycles is None:
         less = calmer(placed, found.motion, solution.slowdown, lambda of: float(ways(of).motion.time[-1]))
     plan, joints, slowdown = solution.motion, solution.joints, solution.slowdown
     placed = placed.with_(solution.fit.describe()) if solution.fit else placed
+    for note in (*around.notes(), *([detour.describe()] if detour else ())):
+        placed = placed.with_(note)
     require_holdable(arm, joints.position)
     sent = sending.from_rest_to_rest(arm, joints, clear.keeps_clear)
     tell("execute", 0.0)
@@ -351,6 +369,8 @@ def imitate(
         less,
         solution.tempo,
         solution.fit,
+        around.obstacles,
+        detour,
     )
 
 
@@ -379,7 +399,7 @@ def _engines(simulator: str, around: Surroundings) -> tuple[Engine, ...]:
     if simulator not in (*engines, "both"):
         raise InvalidArgument(f"simulator: '{simulator}', expected one of {', '.join(engines)}, both.")
     chosen = engines.values() if simulator == "both" else [engines[simulator]]
-    return tuple(partial(engine, floor=around.floor, ignored=around.ignored) for engine in chosen)
+    return tuple(around.in_world(engine) for engine in chosen)
 
 
 def _execute(

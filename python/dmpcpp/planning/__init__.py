@@ -8,6 +8,7 @@ A recorded motion is placed by one similarity transform (`place`, `anchor`); `pl
 """
 
 from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
+from dmpcpp.planning._avoidance import Detour, place_among, solve_around
 from dmpcpp.planning._bound import Bound, arm_bound
 from dmpcpp.planning._clearance import ClearOfItself, LookedAt, clear_of_itself, require_free_postures
 from dmpcpp.planning._cycles import Cycles
@@ -27,6 +28,7 @@ __all__ = [
     "ChosenScaling",
     "ClearOfItself",
     "Cycles",
+    "Detour",
     "Engine",
     "Fitted",
     "JointPlan",
@@ -46,12 +48,14 @@ __all__ = [
     "fitted",
     "limit_factor",
     "place",
+    "place_among",
     "placed",
     "plan",
     "reach",
     "require_free_postures",
     "slowed",
     "solve",
+    "solve_around",
     "taken_policy",
     "taken_tolerance",
     "tempo_check",

@@ -14,8 +14,8 @@ from dmpcpp import simulation
 from dmpcpp._core import Arm, JointTrajectory
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot import FLOOR, ContactRules, links_of, random_postures
-from dmpcpp.simulation import Nearest, Simulator
+from dmpcpp.robot import FLOOR, OBSTACLE_MARGIN, ContactRules, links_of, random_postures
+from dmpcpp.simulation import Nearest, Simulator, kind_of
 
 __all__ = ["ClearOfItself", "LookedAt", "clear_of_itself", "require_free_postures"]
 
@@ -26,7 +26,8 @@ _SHOWN = 6  # pairs that are named in a line
 
 
 class ClearOfItself:
-    """A test of joints: the arm keeps 2 mm off itself and the floor, proven for the whole path.
+    """A test of joints: the arm keeps 2 mm off itself and the floor, and its margin off obstacles, proven for the
+    whole path.
 
     Pairs that are built closer than 5 mm to each other have to keep clear of contact alone.
 
@@ -37,8 +38,9 @@ class ClearOfItself:
     tested : int
     """
 
-    def __init__(self, arm: Arm, engine: Callable[..., Simulator]) -> None:
+    def __init__(self, arm: Arm, engine: Callable[..., Simulator], obstacle_margin: float = OBSTACLE_MARGIN) -> None:
         """Nothing is loaded yet."""
+        self._beside = obstacle_margin
         self._arm, self._engine, self._links = arm, engine, links_of(arm)
         self._world: Simulator | None = None
         self._tight: frozenset[tuple[str, str]] = frozenset()
@@ -58,9 +60,21 @@ class ClearOfItself:
         """Whether a lead (T, n) keeps clear; not one of the paths that are searched."""
         return not self._close(position)
 
+    def nearest_object(self, position: Array) -> Nearest | None:
+        """Return what joints (T, n) come too close to that is no link and not the floor; None of joints that do not."""
+        near = (one for one in self._close(position) if kind_of(one.clearance.other, self._links) == "object")
+        return min(near, key=lambda one: one.margin, default=None)
+
+    def refusing_objects(self) -> tuple[str, ...]:
+        """Return the obstacles for which joints were refused so far, the most frequent first."""
+        others = (other for (_, other), _ in self.refused.most_common() if kind_of(other, self._links) == "object")
+        return tuple(dict.fromkeys(others))
+
     def _close(self, position: Array) -> list[Nearest]:
         world = self._open()
-        near = simulation.nearest_along(world, position, self._links, simulation.CLEAR, tight=self._tight)
+        near = simulation.nearest_along(
+            world, position, self._links, simulation.CLEAR, tight=self._tight, of_objects=self._beside
+        )
         return [one for one in near.values() if one.margin < 0.0]
 
     def _open(self) -> Simulator:
@@ -78,13 +92,15 @@ class ClearOfItself:
         named = ", ".join(f"'{a}' and '{b}' on {n}" for (a, b), n in self.refused.most_common(3))
         return (
             f"{self.refused.total()} of the {self.tested} paths that the joints could follow bring links closer than "
-            f"{1e3 * simulation.CLEAR:.0f} mm to each other or to the floor: {named}. "
+            f"{1e3 * simulation.CLEAR:.0f} mm to each other or to the floor, or too close to an obstacle: {named}. "
             f"{self._advice(self.refused.most_common(1)[0][0])}"
         )
 
     def _advice(self, pair: tuple[str, str]) -> str:
         if FLOOR in pair:
             return "State the real height of the floor, floor=Z, or floor=None without one"
+        if kind_of(pair[1], self._links) == "object":
+            return f"Move the obstacle '{pair[1]}', or take a smaller obstacle_margin"
         return f"If their shapes overlap by construction, state ignored=[('{pair[0]}', '{pair[1]}')]"
 
 
@@ -130,9 +146,11 @@ class LookedAt:
         }
 
 
-def clear_of_itself(arm: Arm, engine: Callable[..., Simulator]) -> ClearOfItself:
-    """Return a test of joints: the arm keeps 2 mm off itself and the floor along the whole path."""
-    return ClearOfItself(arm, engine)
+def clear_of_itself(
+    arm: Arm, engine: Callable[..., Simulator], obstacle_margin: float = OBSTACLE_MARGIN
+) -> ClearOfItself:
+    """Return a test of joints: the arm keeps 2 mm off itself and the floor along the whole path, more off obstacles."""
+    return ClearOfItself(arm, engine, obstacle_margin)
 
 
 def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int = 0) -> LookedAt:
@@ -157,6 +175,12 @@ def require_free_postures(arm: Arm, engine: Callable[..., Simulator], seed: int 
     always = [(pair, n) for pair, n in found.most_common() if n >= _NEARLY_ALL * _POSTURES]
     if not always:
         return looked_at
+    standing = next(((a, b) for (a, b), _ in always if kind_of(b, links_of(arm)) == "object"), None)
+    if standing is not None:
+        raise InvalidArgument(
+            f"obstacle: '{standing[1]}' touches link '{standing[0]}' of {arm.name!r} in (nearly) every posture. Move "
+            "it: obstacles are in the frame of the URDF's root."
+        )
     named = "; ".join(f"'{a}' and '{b}' in {n} of {_POSTURES}" for (a, b), n in always)
     stated = "ignored=[" + ", ".join(f"('{a}', '{b}')" for (a, b), _ in always) + "]"
     floor = " Or state where the floor is: floor=Z, or floor=None." if any(FLOOR in pair for pair, _ in always) else ""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from dmpcpp._core import Arm, JointTrajectory, Motion, PoseDmp, PoseTrajectory, 
 from dmpcpp._typing import Array
 from dmpcpp.checks import Check, Checked, accepted_names
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.planning._avoidance import Detour, solve_around
 from dmpcpp.planning._clearance import LookedAt, clear_of_itself, require_free_postures
 from dmpcpp.planning._fit import DEFAULT_TOLERANCE, Fitted, Tolerance
 from dmpcpp.planning._joints import Led, solve
@@ -32,6 +34,8 @@ from dmpcpp.robot import (
     POSE,
     Follow,
     LimitUse,
+    Obstacle,
+    Surroundings,
     assumptions,
     dimension_checks,
     following,
@@ -45,6 +49,9 @@ from dmpcpp.sending import RestToRest
 from dmpcpp.simulation import Simulator, Tolerances, inverse_kinematics_checks, path_checks
 
 __all__ = ["JointPlan", "at_phases", "plan", "write"]
+
+
+_NO_ENGINE = "without an engine only the tool's path is kept clear of obstacles, not the whole arm."
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +83,10 @@ class JointPlan(Checked):
         Where it is slower than wanted, and by how much.
     fit : Fitted or None
         How far it is from the learned path; None where it is the learned path.
+    obstacles : tuple of Obstacle
+        What the motion keeps clear of.
+    detour : Detour or None
+        How it was led around them.
     """
 
     arm: Arm
@@ -91,6 +102,8 @@ class JointPlan(Checked):
     scaling: ChosenScaling | None = None
     tempo: Tempo | None = None
     fit: Fitted | None = None
+    obstacles: tuple[Obstacle, ...] = ()
+    detour: Detour | None = None
 
     def summary(self) -> dict[str, Any]:
         """Return what summary.json holds; m, rad, s."""
@@ -110,6 +123,8 @@ class JointPlan(Checked):
             "goal": self.motion.pose[-1].tolist(),
             "via": [{"phase": via.phase, "pose": np.asarray(via.point).tolist()} for via in self.via],
             "scaling": self.scaling.to_dict() if self.scaling else None,
+            "obstacles": [obstacle.to_dict() for obstacle in self.obstacles],
+            "detour": self.detour.to_dict() if self.detour else None,
             "limits": limits_summary(self.arm),
             "assumed": list(assumptions(self.arm)),
         }
@@ -125,6 +140,7 @@ def plan(
     slow_down: bool = True,
     tempo: str = "person",
     slowest: float | None = None,
+    surroundings: Surroundings | None = None,
     tolerance: str | Tolerance | tuple[float, float] | None = DEFAULT_TOLERANCE,
     simulator: Callable[..., Simulator] | None = None,
     accept: Iterable[str] = (),
@@ -166,6 +182,10 @@ def plan(
         than six joints needs it.
     via : sequence of Via
         Poses (4, 4) that the motion passes, in the order of their phases; see `at_phases` for places alone.
+    surroundings : Surroundings, optional
+        The floor, pairs that may touch, and obstacles: the motion is led around them (`solve_around`), and the whole
+        arm keeps `margin` from them, also on its way from and to rest. Needs `simulator`, an engine to make such a
+        world of; without one the whole arm is not judged.
     scaling : str or Scaling
         How the model goes to a new goal; automatic is the scaling that it was learned with.
 
@@ -174,7 +194,7 @@ def plan(
     InvalidArgument
         Not such a model, or a rhythmic one without `Cycles`; goal or via-point out of reach, unknown name in `accept`,
         too few joints for `follow`, links that always touch, motors that cannot hold the arm, or what
-        `PoseDmp.rollout` and `InverseKinematics.follow` refuse. An unreachable path does not raise:
+        `PoseDmp.rollout`, `InverseKinematics.follow` and `solve_around` refuse. An unreachable path does not raise:
         `ik_position_residual` or `ik_angle_residual` fails.
     """
     if not isinstance(model, Led):
@@ -195,9 +215,13 @@ def plan(
         if np.shape(passed.point) == (4, 4):
             require_within_reach(np.asarray(passed.point)[:3, 3], arm, f"via[{j}].point")
     model, chosen = with_scaling(model, scaling, goal)
+    around = surroundings or Surroundings()
+    if simulator is not None and surroundings is not None:
+        simulator = around.in_world(simulator)
     looked_at = require_free_postures(arm, simulator) if simulator is not None else None
-    clear = clear_of_itself(arm, simulator) if simulator is not None else None
-    solution = solve(
+    clear = clear_of_itself(arm, simulator, around.margin) if simulator is not None else None
+    ways = partial(
+        solve,
         model,
         arm,
         goal=goal,
@@ -208,8 +232,8 @@ def plan(
         tempo=tempo,
         tolerance=tolerance,
         follow=followed,
-        via=via,
     )
+    solution, detour = solve_around(ways, model, arm, around, clear, goal=goal, via=via)
     joints = solution.joints
     require_holdable(arm, joints.position)
     sent = sending.from_rest_to_rest(arm, joints, clear.keeps_clear if clear else None)
@@ -225,7 +249,20 @@ def plan(
     )
     if simulator is not None:
         checks = (*checks, *path_checks(arm, sent, simulator=simulator))
-    plain = (checks, accepted, looked_at, followed, tuple(via), chosen, solution.tempo, solution.fit)
+    elif around.obstacles:
+        checks = (*checks, Check.not_judged("path_object_clearance", "m", _NO_ENGINE))
+    plain = (
+        checks,
+        accepted,
+        looked_at,
+        followed,
+        tuple(via),
+        chosen,
+        solution.tempo,
+        solution.fit,
+        around.obstacles,
+        detour,
+    )
     return JointPlan(arm, solution.motion, joints, sent, solution.slowdown, *plain)
 
 

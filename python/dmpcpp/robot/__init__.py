@@ -4,7 +4,15 @@ Users import ``dmpcpp.arms`` and ``dmpcpp.urdf_check``; the rest is for the room
 """
 
 from dmpcpp.robot._body_inertia import links_by_density, with_density, without_dynamics
-from dmpcpp.robot._contact_rules import FLOOR, ContactRules, Surroundings, contact_rules, floor_height
+from dmpcpp.robot._contact_rules import (
+    FLOOR,
+    OBSTACLE_MARGIN,
+    ContactRules,
+    Surroundings,
+    base_in_root,
+    contact_rules,
+    floor_height,
+)
 from dmpcpp.robot._description import RobotDescription, describe, links_beyond, links_of
 from dmpcpp.robot._dimensions import dimension_checks, dimension_doubts
 from dmpcpp.robot._disturbance import Disturbance
@@ -15,6 +23,7 @@ from dmpcpp.robot._levers import Levers
 from dmpcpp.robot._limit_sources import assumptions, limits_summary
 from dmpcpp.robot._limit_use import LimitUse, judged_by_limits
 from dmpcpp.robot._makers import MAKERS as MAKERS
+from dmpcpp.robot._obstacles import Obstacle, obstacles_of
 from dmpcpp.robot._packages import find_mesh
 from dmpcpp.robot._payload import payload_of, with_description, with_payload
 from dmpcpp.robot._plausible_limits import LimitDoubt, joint_types, limit_doubts, unjudged, why
@@ -25,6 +34,7 @@ from dmpcpp.robot._xml import parsed
 
 __all__ = [
     "FLOOR",
+    "OBSTACLE_MARGIN",
     "POSE",
     "ContactRules",
     "Disturbance",
@@ -33,10 +43,12 @@ __all__ = [
     "Levers",
     "LimitDoubt",
     "LimitUse",
+    "Obstacle",
     "Overload",
     "RobotDescription",
     "Surroundings",
     "assumptions",
+    "base_in_root",
     "contact_rules",
     "describe",
     "dimension_checks",
@@ -56,6 +68,7 @@ __all__ = [
     "links_of",
     "moment_change",
     "nearest_physical",
+    "obstacles_of",
     "overloads",
     "parsed",
     "payload_of",

@@ -9,23 +9,30 @@ from __future__ import annotations
 
 import copy
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import combinations, product
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
+
 from dmpcpp._core import Arm
+from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
-from dmpcpp.robot._shapes import lowest
+from dmpcpp.robot._obstacles import Obstacle, obstacles_in
+from dmpcpp.robot._shapes import lowest, poses_at_rest
 from dmpcpp.robot._urdf_changes import freeze
 from dmpcpp.robot._xml import parsed
 
-__all__ = ["FLOOR", "ContactRules", "Surroundings", "contact_rules", "floor_height", "groups_of"]
+__all__ = ["FLOOR", "ContactRules", "Surroundings", "base_in_root", "contact_rules", "floor_height", "groups_of"]
 
 FLOOR = "floor"
 """The name of the ground in contacts."""
+
+OBSTACLE_MARGIN = 0.01
+"""m that a planned motion stays away from obstacles."""
 
 Pair = frozenset[str]
 _SHOWN = 6  # pairs that are named in a line
@@ -42,20 +49,51 @@ class Surroundings:
         collision shape that the arm does not move, whichever is lower.
     ignored : tuple of (str, str)
         Pairs of links, or a link and "floor", whose contacts are not looked for.
+    obstacles : tuple of Obstacle
+        What stands around it.
+    margin : float
+        How far a planned motion stays away from them, m, above 0.
     """
 
     floor: float | Literal["auto"] | None = "auto"
     ignored: tuple[tuple[str, str], ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
+    margin: float = OBSTACLE_MARGIN
+
+    def __post_init__(self) -> None:
+        """Refuse a margin that is none."""
+        if not 0.0 < self.margin < 10.0:
+            raise InvalidArgument(f"obstacle_margin: {self.margin:g}, expected a distance in m above 0, to 10.")
+
+    def in_world(self, engine: Callable[..., Any]) -> Callable[..., Any]:
+        """Return an engine whose worlds are like this."""
+        return partial(engine, floor=self.floor, ignored=self.ignored, obstacles=self.obstacles)
+
+    def notes(self) -> list[str]:
+        """Return what is kept clear of, a line or none, and what was taken for what it is."""
+        if not self.obstacles:
+            return []
+        named = ", ".join(f"'{obstacle.name}'" for obstacle in self.obstacles[:_SHOWN])
+        more = f" and {len(self.obstacles) - _SHOWN} more" if len(self.obstacles) > _SHOWN else ""
+        kept = f"obstacles {named}{more}: the whole arm keeps {1e3 * self.margin:g} mm from them"
+        return [kept, *(obstacle.note for obstacle in self.obstacles if obstacle.note)]
 
     @staticmethod
     def of(values: dict[str, Any] | None) -> Surroundings:
         """Return what `to_dict` wrote."""
         values = values or {}
-        return Surroundings(values.get("floor", "auto"), tuple((a, b) for a, b in values.get("ignored", ())))
+        ignored = tuple((a, b) for a, b in values.get("ignored", ()))
+        obstacles = obstacles_in(values.get("obstacles", ()))
+        margin = float(values.get("obstacle_margin", OBSTACLE_MARGIN))
+        return Surroundings(values.get("floor", "auto"), ignored, obstacles, margin)
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return {"floor": self.floor, "ignored": [list(pair) for pair in self.ignored]}
+        known: dict[str, Any] = {"floor": self.floor, "ignored": [list(pair) for pair in self.ignored]}
+        if self.obstacles:
+            known["obstacles"] = [obstacle.to_dict() for obstacle in self.obstacles]
+            known["obstacle_margin"] = self.margin
+        return known
 
 
 @dataclass(frozen=True)
@@ -143,6 +181,11 @@ def _rules(urdf: str, folder: str, joints: tuple[str, ...], ignored: tuple[tuple
         stated=tuple((a, b) for a, b in ignored),
         by_srdf={name: len(pairs) for name, pairs in srdf.items()},
     )
+
+
+def base_in_root(arm: Arm) -> Array:
+    """Return the pose (4, 4) of the arm's base in the frame of the URDF's root, joints below it at 0."""
+    return poses_at_rest(parsed(arm.urdf)).get(arm.base, np.eye(4))
 
 
 def floor_height(urdf: str, arm: Arm, surroundings: Surroundings | None, still: frozenset[str]) -> float | None:

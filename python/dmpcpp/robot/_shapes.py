@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._typing import Array
 from dmpcpp.robot._convex_pieces import mesh_points
 
-__all__ = ["balls", "end_of", "lowest", "number", "points_of", "pose_of"]
+__all__ = ["balls", "end_of", "lowest", "number", "points_of", "pose_of", "poses_at_rest"]
 
 
 def lowest(robot: ET.Element, links: frozenset[str]) -> float:
@@ -20,7 +20,7 @@ def lowest(robot: ET.Element, links: frozenset[str]) -> float:
 
     Every joint stands at 0; those that are to stand elsewhere are to be frozen there before.
     """
-    poses, height = _poses_at_rest(robot), np.inf
+    poses, height = poses_at_rest(robot), np.inf
     for link in robot.findall("link"):
         pose = poses.get(link.get("name", ""))
         if link.get("name") in links and pose is not None:
@@ -29,7 +29,7 @@ def lowest(robot: ET.Element, links: frozenset[str]) -> float:
     return height
 
 
-def _poses_at_rest(robot: ET.Element) -> dict[str, Array]:
+def poses_at_rest(robot: ET.Element) -> dict[str, Array]:
     """Return the pose (4, 4) of each link in the root's frame with every joint at 0."""
     joints: dict[str, list[tuple[str, Array]]] = {}
     children = set()

@@ -21,7 +21,7 @@ from dmpcpp.simulation._reference import Reference, from_rest_to_rest
 from dmpcpp.simulation._reference import sample as sample
 from dmpcpp.simulation._reference import states_at as states_at
 from dmpcpp.simulation._second_opinion import AgreementTolerances, agreement
-from dmpcpp.simulation._simulator import Clearance, Contact, Simulator
+from dmpcpp.simulation._simulator import Clearance, Contact, Simulator, kind_of
 from dmpcpp.simulation._torque_scaling import torque_duration_factor
 from dmpcpp.simulation._verdict import Tolerances, Verdict, inertia_notes, inverse_kinematics_checks, judge
 
@@ -62,6 +62,7 @@ __all__ = [
     "inertia_notes",
     "inverse_kinematics_checks",
     "judge",
+    "kind_of",
     "nearest_along",
     "path_checks",
     "torque_duration_factor",

@@ -29,7 +29,7 @@ class Bullet(BulletWorld):
         Load what is only drawn as well.
     disturbance : Disturbance, optional
         In what this arm differs from ``arm``; ``inverse_dynamics`` knows nothing of its damping and friction.
-    obstacles : sequence of Box
+    obstacles : sequence of Box or Obstacle
         Fixed things in the arm's way.
 
     Raises

@@ -25,6 +25,7 @@ from dmpcpp.errors import MissingDependency
 from dmpcpp.robot import (
     Disturbance,
     Levers,
+    Obstacle,
     RobotDescription,
     Surroundings,
     contact_rules,
@@ -35,6 +36,7 @@ from dmpcpp.robot import (
 )
 from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, checked_time_step, refused
+from dmpcpp.simulation._solids import Solid, quaternion_of, solid_of
 
 _UNLIMITED_TORQUE = 1e6  # Nm, for a joint whose URDF states no effort: Bullet wants a finite number
 
@@ -51,11 +53,12 @@ class BulletWorld:
         ignored: Sequence[tuple[str, str]] = (),
         visuals: bool = False,
         disturbance: Disturbance | None = None,
-        obstacles: Sequence[Box] = (),
+        obstacles: Sequence[Box | Obstacle] = (),
     ) -> None:
         """Load the arm into a world of its own."""
         self.arm, self.time_step = arm, checked_time_step(time_step)
         refuse_names(obstacles, links_of(arm))
+        self.obstacles = tuple(thing.name for thing in obstacles)
         self._around = Surroundings(floor, tuple(ignored))
         self.contact_rules = contact_rules(arm, self._around)
         self._p = _pybullet()
@@ -64,7 +67,7 @@ class BulletWorld:
         self.name = f"PyBullet {importlib.metadata.version('pybullet')}"
         try:
             self._set_up(visuals, disturbance or Disturbance())
-            self._others |= {self._add_box(box): box.name for box in obstacles}
+            self._others |= {self._add_obstacle(thing): thing.name for thing in obstacles}
         except BaseException:
             self.close()
             raise
@@ -214,14 +217,24 @@ class BulletWorld:
         for link in (*self._standing, *self._off_floor):
             p.setCollisionFilterPair(self._floor, self._body, -1, link, 0, physicsClientId=client)
 
-    def _add_box(self, box: Box) -> int:
+    def _add_obstacle(self, thing: Box | Obstacle) -> int:
         p, client = self._p, self._client
-        half = [0.5 * side for side in box.size]
-        shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=half, physicsClientId=client)
-        body = int(p.createMultiBody(0.0, shape, basePosition=list(box.centre), physicsClientId=client))
+        shape, pose = self._collision_shape(solid_of(thing))
+        place = {"basePosition": pose[:3, 3].tolist(), "baseOrientation": quaternion_of(pose)}
+        body = int(p.createMultiBody(0.0, shape, **place, physicsClientId=client))
         for link in self._standing:
             p.setCollisionFilterPair(body, self._body, -1, link, 0, physicsClientId=client)
         return body
+
+    def _collision_shape(self, solid: Solid) -> tuple[int, Array]:
+        p = self._p
+        kinds: dict[str, dict[str, Any]] = {
+            "sphere": {"shapeType": p.GEOM_SPHERE, "radius": solid.radius},
+            "box": {"shapeType": p.GEOM_BOX, "halfExtents": list(solid.half)},
+            "capsule": {"shapeType": p.GEOM_CAPSULE, "radius": solid.radius, "height": solid.length},
+            "plane": {"shapeType": p.GEOM_PLANE, "planeNormal": [0.0, 0.0, 1.0]},
+        }
+        return int(p.createCollisionShape(**kinds[solid.kind], physicsClientId=self._client)), solid.pose
 
     def _read(self) -> None:
         states = self._p.getJointStates(self._body, self._moving, physicsClientId=self._client)

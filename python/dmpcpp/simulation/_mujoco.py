@@ -24,6 +24,7 @@ from dmpcpp.errors import MissingDependency
 from dmpcpp.robot import (
     Disturbance,
     Levers,
+    Obstacle,
     RobotDescription,
     Surroundings,
     contact_rules,
@@ -34,6 +35,7 @@ from dmpcpp.robot import (
 )
 from dmpcpp.simulation._objects import Box, refuse_names
 from dmpcpp.simulation._simulator import FLOOR, GRAVITY, Clearance, Contact, checked_time_step, refused
+from dmpcpp.simulation._solids import Solid, quaternion_of, solid_of
 
 _FLOOR_DRAWN = 10.0  # m; a plane collides everywhere, its size is only drawn
 _COMPILER = '<mujoco><compiler fusestatic="false" strippath="false" boundmass="1e-12" boundinertia="1e-14"/></mujoco>'
@@ -62,7 +64,7 @@ class MuJoCo:
         Pairs of links, or a link and "floor", that may touch.
     disturbance : Disturbance, optional
         In what this arm differs from ``arm``; ``inverse_dynamics`` knows nothing of its damping and friction.
-    obstacles : sequence of Box
+    obstacles : sequence of Box or Obstacle
         Fixed things in the arm's way.
 
     Raises
@@ -81,11 +83,12 @@ class MuJoCo:
         floor: float | Literal["auto"] | None = "auto",
         ignored: Sequence[tuple[str, str]] = (),
         disturbance: Disturbance | None = None,
-        obstacles: Sequence[Box] = (),
+        obstacles: Sequence[Box | Obstacle] = (),
     ) -> None:
         """Load the arm into a world of its own."""
         self.arm, self.time_step = arm, checked_time_step(time_step)
         refuse_names(obstacles, links_of(arm))
+        self.obstacles = tuple(thing.name for thing in obstacles)
         self._m = _mujoco()
         self.name = f"MuJoCo {importlib.metadata.version('mujoco')}"
         around = Surroundings(floor, tuple(ignored))
@@ -214,7 +217,7 @@ class MuJoCo:
 
     # ---- setting up --------------------------------------------------------------------------------------
 
-    def _compile(self, description: RobotDescription, obstacles: Sequence[Box]) -> Any:
+    def _compile(self, description: RobotDescription, obstacles: Sequence[Box | Obstacle]) -> Any:
         m = self._m
         try:
             with quiet():  # older ones write warnings to the terminal
@@ -228,7 +231,7 @@ class MuJoCo:
         model.opt.disableflags |= int(m.mjtDisableBit.mjDSBL_EULERDAMP) | int(m.mjtDisableBit.mjDSBL_FILTERPARENT)
         return model
 
-    def _spec(self, description: RobotDescription, obstacles: Sequence[Box]) -> Any:
+    def _spec(self, description: RobotDescription, obstacles: Sequence[Box | Obstacle]) -> Any:
         spec = self._m.MjSpec.from_string(description.text.replace("</robot>", f"{_COMPILER}</robot>"))
         bodies = {body.name for body in spec.bodies}
         for pair in sorted(tuple(sorted(pair)) for pair in self.contact_rules.left_out if FLOOR not in pair):
@@ -238,16 +241,28 @@ class MuJoCo:
         self._add_surroundings(spec, obstacles)
         return spec
 
-    def _add_surroundings(self, spec: Any, obstacles: Sequence[Box]) -> None:
+    def _add_surroundings(self, spec: Any, obstacles: Sequence[Box | Obstacle]) -> None:
         kinds, still = self._m.mjtGeom, spec.worldbody.add_body(name=_SURROUNDINGS)
         if self.floor is not None:
             ground, size = spec.worldbody.add_body(name=_GROUND), [_FLOOR_DRAWN, _FLOOR_DRAWN, 1.0]
             ground.add_geom(name=FLOOR, type=kinds.mjGEOM_PLANE, size=size, pos=[0.0, 0.0, self.floor])
             for link in sorted(self.contact_rules.off_floor):
                 spec.add_exclude(bodyname1=self._description.in_engine(link), bodyname2=_GROUND)
-        for box in obstacles:
-            half = [0.5 * side for side in box.size]
-            still.add_geom(name=box.name, type=kinds.mjGEOM_BOX, size=half, pos=list(box.centre))
+        for thing in obstacles:
+            solid = solid_of(thing)
+            x, y, z, w = quaternion_of(solid.pose)
+            still.add_geom(
+                name=thing.name,
+                type={
+                    "sphere": kinds.mjGEOM_SPHERE,
+                    "box": kinds.mjGEOM_BOX,
+                    "capsule": kinds.mjGEOM_CAPSULE,
+                    "plane": kinds.mjGEOM_PLANE,
+                }[solid.kind],
+                size=_mujoco_size(solid),
+                pos=solid.pose[:3, 3].tolist(),
+                quat=[w, x, y, z],
+            )
 
     def _find_joints(self) -> None:
         """Index joints and links by name; take all memory."""
@@ -303,6 +318,15 @@ class MuJoCo:
 
     def _body_of(self, geom: int) -> str:
         return self._description.link(str(self._model.body(int(self._model.geom_bodyid[geom])).name))
+
+
+def _mujoco_size(solid: Solid) -> list[float]:
+    return {
+        "sphere": [solid.radius, 0.0, 0.0],
+        "box": list(solid.half),
+        "capsule": [solid.radius, 0.5 * solid.length, 0.0],
+        "plane": [_FLOOR_DRAWN, _FLOOR_DRAWN, 1.0],
+    }[solid.kind]
 
 
 def _mujoco() -> ModuleType:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot import Obstacle
 from dmpcpp.simulation._simulator import FLOOR
 
 
@@ -129,7 +130,7 @@ class Box:
             raise InvalidArgument(f"size of box '{self.name}': {self.size}, expected three positive numbers [m].")
 
 
-def refuse_names(obstacles: Sequence[Box], links: Collection[str]) -> None:
+def refuse_names(obstacles: Sequence[Box | Obstacle], links: Collection[str]) -> None:
     """Refuse a name that contacts would take for something else: of a link, of the floor, of another obstacle."""
     for k, box in enumerate(obstacles):
         taken = {*links, FLOOR, *(other.name for other in obstacles[:k])}

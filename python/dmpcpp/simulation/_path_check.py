@@ -66,7 +66,7 @@ def path_checks(
     Returns
     -------
     tuple of Check
-        ``path_self_clearance``, ``path_floor_clearance`` and, where there are obstacles near, also
+        ``path_self_clearance``, ``path_floor_clearance`` and, where there are obstacles, also
         ``path_object_clearance``: the least distance [m] (1 if all are farther), where, and between what.
     """
     tolerances = tolerances or PathTolerances()
@@ -74,12 +74,13 @@ def path_checks(
     links = links_of(arm)
     with simulator(arm, 1e-3) as engine:
         found = [(int(k), c) for k in samples for c in engine.clearances_at(joints.position[k], _FAR)]
+        around = engine.obstacles
         close = nearest_along(engine, joints.position, links, max(asdict(tolerances).values()))
     checks = []
     for kind, what in _NEAR.items():
         near = [(float(k), clearance) for k, clearance in found if kind_of(clearance.other, links) == kind]
         near += [(close[kind].sample, close[kind].clearance)] if kind in close else []
-        if near or kind != "object":
+        if near or kind != "object" or around:
             checks.append(_check(kind, what, near, joints, getattr(tolerances, f"{kind}_clearance")))
     return tuple(checks)
 

@@ -48,6 +48,7 @@ def nearest_along(
     limit: float,
     *,
     tight: Collection[Pair] = (),
+    of_objects: float | None = None,
     far: float = 0.05,
     first: int = 20,
 ) -> dict[str, Nearest]:
@@ -55,9 +56,18 @@ def nearest_along(
 
     Exact where nothing is nearer than `limit` [m]: that is proven for the whole path; what is nearer is found to 0.5 mm
     of motion, and the search ends at the first. Of `tight` pairs, which are built close to each other, only contact
-    counts.
+    counts. `of_objects` is the limit [m] of what is no link and not the floor, `limit` unless given.
     """
-    look = _Look(engine, position, links, far, lambda pair: 0.0 if pair in tight else limit)
+    beside = limit if of_objects is None else of_objects
+
+    def limit_of(pair: Pair) -> float:
+        if pair in tight:
+            return 0.0
+        return beside if kind_of(pair[1], links) == "object" else limit
+
+    limit = max(limit, beside)
+    far = max(far, 2.0 * limit)
+    look = _Look(engine, position, links, far, limit_of)
     samples = np.unique(np.linspace(0, len(position) - 1, min(first, len(position))).round())
     for sample in _in_doubt(look, samples, limit):
         look.at(sample)

@@ -91,6 +91,8 @@ class Simulator(Protocol):
     """What is not looked at for contacts."""
     floor: float | None
     """Height of the ground in the frame of the URDF's root [m]; None for no ground."""
+    obstacles: tuple[str, ...]
+    """Names of what stands around the arm."""
     levers: Levers
     """How far each joint moves points of links."""
     unjudged_links: tuple[str, ...]

@@ -6,7 +6,6 @@ import json
 import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -193,7 +192,7 @@ def _executed(
 def _follows(recording: Recording, arm: Arm, trial: Trial) -> bool:
     """Whether the arm follows it where it is, without touching itself or the floor."""
     around = Surroundings.of(trial.options.get("surroundings"))
-    engine = partial(default_simulator, floor=around.floor, ignored=around.ignored)
+    engine = around.in_world(default_simulator)
     solver = InverseKinematics(arm, weight=following(arm, trial.options.get("follow")).weight)
     joints = solver.follow(motion.poses(recording), times=recording.time, thorough=False)
     if trial.options.get("dynamics") == "none":
