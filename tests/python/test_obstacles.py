@@ -12,9 +12,10 @@ BALL_ARM = """<robot name="ball"><link name="a"/><link name="b"><collision><geom
   </collision><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="j" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="1 0 0"/><origin xyz="0 0 1"/>
   <limit lower="-1" upper="1" velocity="1" effort="100"/></joint></robot>"""
-SCENE = """<robot name="scene"><link name="table"><collision><origin xyz="0 0 -0.1"/><geometry>
-  <box size="2 1 0.2"/></geometry></collision></link><link name="post"><collision><geometry><cylinder radius="0.1" length="0.6"/></geometry></collision>
-  </link><link name="bulb"><collision><geometry><sphere radius="0.07"/></geometry></collision></link>
+SCENE = """<robot name="scene">
+  <link name="table"><collision><origin xyz="0 0 -0.1"/><geometry><box size="2 1 0.2"/></geometry></collision></link>
+  <link name="post"><collision><geometry><cylinder radius="0.1" length="0.6"/></geometry></collision></link>
+  <link name="bulb"><collision><geometry><sphere radius="0.07"/></geometry></collision></link>
   <joint name="p" type="fixed"><parent link="table"/><child link="post"/><origin xyz="0.5 0 0.3" rpy="0 0 0.3"/></joint>
   <joint name="q" type="fixed"><parent link="post"/><child link="bulb"/><origin xyz="0 0 0.4"/></joint></robot>"""
 
