@@ -111,7 +111,7 @@ TEST_CASE("what is no model of this version is refused with the place") {
   refused("[]", "expected an object");
   refused("{}", "'format' is missing");
   refused(replaced(text, "\"dmpcpp\"", "\"other\""), "format");
-  refused(replaced(text, "\"version\": 1", "\"version\": 4"), "newer dmpcpp");
+  refused(replaced(text, "\"version\": 1", "\"version\": 5"), "newer dmpcpp");
   refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": \"mp\""), "'mp' is unknown");
   refused(replaced(text, "\"kind\": \"dmp\"", "\"kind\": \"dmp\", \"kind\": \"dmp\""), "stands twice");
   refused(replaced(text, "\"lwr\"", "\"gpr\""),

@@ -81,3 +81,68 @@ def test_a_time_that_the_joints_cannot_keep_is_stretched_or_refused_as_asked(tmp
     }  # no older joints
     told = run(*hasty[:-1], "--exact-duration", cwd=tmp_path)
     assert "not feasible" in told.stdout and "without joints.csv: do not run this plan on a robot" in told.stdout
+
+
+def write_takes(folder, count=4):
+    for k in range(count):
+        write_hand(folder / f"take{k}.npz", lift=0.1 + 0.02 * k)
+    return [f"take{k}.npz" for k in range(count)]
+
+
+def test_takes_that_differ_are_learned_with_how_they_differ_and_planned_past_what_is_given(tmp_path):
+    files = write_takes(tmp_path)
+    stated = ("--quat-order", "xyzw", "--arm", "panda", "--distribution", "--out", "reach.json")
+    done = run("fit", *files, *stated, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert names_in(tmp_path) >= {"reach.json", "reach.png", "reach.config.toml"}
+    assert "4 takes, 14 control points" in done.stdout
+    learned = dmpcpp.load(tmp_path / "reach.json")
+    assert isinstance(learned, dmpcpp.PoseDistribution) and learned.demonstrations == 4
+    sigma = np.sqrt(np.diag(learned.spread(3).covariance[1]))[:3]
+    middle = learned.rollout(3).pose[1, :3, 3] + 0.5 * sigma
+    given = "0.5:" + ",".join(map(str, middle))
+    done = run("plan", "reach.json", "--given", given, "--out", "plan", "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    summary = json.loads(done.stdout)
+    assert summary["given"][0]["phase"] == 0.5 and 0 < summary["given"][0]["deviations"] < 3
+    planned = export.read_plan(tmp_path / "plan" / "plan.npz").pose[:, :3, 3]
+    assert np.linalg.norm(planned - middle, axis=1).min() < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("fit", "take0.npz", "--distribution"), "--distribution: one take, expected at least 2"),
+        (("fit", "take0.npz", "take1.npz", "--distribution", "--basis-count", "9"), "--basis-count: with --distrib"),
+        (("plan", "one.json", "--arm", "panda", "--given", "0.5:0,0,1"), "--given: MODEL is no distribution"),
+        (("plan", "all.json", "--arm", "panda", "--given", "1.5:0,0,1"), "--given[0].phase: 1.5"),
+        (("plan", "all.json", "--arm", "panda", "--given", "nonsense"), "--given: 'nonsense', expected S:X,Y,Z"),
+        (
+            ("plan", "all.json", "--arm", "panda", "--given", "0.5:0,0,1", "--given", "0.5:0,0,1.1"),
+            "--given[1]: nothing is left open at phase 0.5",
+        ),
+    ],
+)
+def test_what_cannot_be_given_is_refused_and_nothing_written(tmp_path, words, told):
+    write_takes(tmp_path, 2)
+    stated = ("--quat-order", "xyzw")
+    if words[0] == "plan":
+        assert run("fit", "take0.npz", *stated, "--out", "one.json", cwd=tmp_path).returncode == 0
+        both = run("fit", "take0.npz", "take1.npz", *stated, "--distribution", "--out", "all.json", cwd=tmp_path)
+        assert both.returncode == 0, both.stderr
+    before = names_in(tmp_path)
+    done = run(*words, *(stated if words[0] == "fit" else ()), cwd=tmp_path)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert told in done.stderr and "Traceback" not in done.stderr
+    assert names_in(tmp_path) == before
+
+
+def test_a_take_of_another_motion_makes_no_distribution(tmp_path):
+    files = write_takes(tmp_path, 5)
+    hand = dict(np.load(tmp_path / "take2.npz"))
+    hand["pose"][:, :3] += np.outer(np.sin(np.linspace(0, 6, len(hand["time"]))), [0.2, 0.2, 0.0])
+    np.savez(tmp_path / "take2.npz", **hand)
+    done = run("fit", *files, "--quat-order", "xyzw", "--distribution", cwd=tmp_path)
+    assert done.returncode == 3, done.stdout + done.stderr
+    assert "--leave-out 3" in done.stdout
+    assert "model.json" not in names_in(tmp_path)

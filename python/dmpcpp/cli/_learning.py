@@ -20,6 +20,13 @@ from dmpcpp.cli._arm_options import (
 )
 from dmpcpp.cli._choices import engines, scaling_option
 from dmpcpp.cli._config import save_config
+from dmpcpp.cli._distribution import (
+    distribution_option,
+    given_option,
+    learn_distribution,
+    require_no_basis_count,
+    taken_given,
+)
 from dmpcpp.cli._flags import as_typed, flag
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._limit_options import accept_option, names, taken_limits
@@ -33,6 +40,7 @@ from dmpcpp.cli._options import (
 )
 from dmpcpp.cli._recording_options import recording_options, taken_recording
 from dmpcpp.cli._robot_files import export_option, print_written
+from dmpcpp.cli._set_aside import set_aside
 from dmpcpp.cli._tables import arm_line, note_style, print_checks, way
 from dmpcpp.cli._tempo_options import taken_tempo, tempo_options
 from dmpcpp.cli._verdict import print_verdict
@@ -64,6 +72,7 @@ if TYPE_CHECKING:
 @click.option(
     "--basis-count", type=click.IntRange(1, 100000), help="Number of kernels (default: as many as the motion needs)."
 )
+@distribution_option
 @click.option(
     "--leave-out",
     multiple=True,
@@ -83,6 +92,7 @@ def fit(
     scale: str | None,
     seed: int,
     basis_count: int | None,
+    distribution: bool,
     leave_out: tuple[str, ...],
     out: Path,
     as_json: bool,
@@ -95,6 +105,8 @@ def fit(
 
     Without --arm the model is one of the recorded poses, z up; with it, of poses of the arm's tip in its base frame,
     ready for `dmpcpp plan`.
+
+    With --distribution takes that differ are learned with how they differ, for `dmpcpp plan --given`.
 
     Example: dmpcpp fit reach.bvh --body RightHand --unit cm --arm panda --out reach.json
     """
@@ -113,6 +125,10 @@ def fit(
     else:
         _require_no_arm({**options, "scale": scale})
     keep_rests = options.pop("keep_rests")
+    if distribution:
+        require_no_basis_count(basis_count)
+        learn_distribution(found, out, smooth=smooth, numbers=numbers, keep_rests=keep_rests, as_json=as_json)
+        return
     lesson = teach(found, basis_count=basis_count, smooth=smooth, numbers=numbers, keep_rests=keep_rests)
     written = lesson.ok or len(found) == 1  # takes that do not belong together make no model
     config = out.with_name(f"{out.stem}.config.toml")
@@ -121,7 +137,7 @@ def fit(
         save(lesson.model, out)
         save_config(config)
     else:
-        _set_aside(out, config)
+        set_aside(out, config)
     if as_json:
         click.echo(json.dumps(lesson.summary(), indent=2, allow_nan=False))
     else:
@@ -161,15 +177,6 @@ def _takes(
     if not takes:
         raise InvalidArgument("--leave-out: leaves nothing to learn from.")
     return list(takes), list(takes.values())
-
-
-def _set_aside(*paths: Path) -> None:
-    """Rename the files of an earlier run, which nobody shall take for those of this one."""
-    for path in paths:
-        if path.exists():
-            older = path.with_name(f"{path.name}.old")
-            path.replace(older)
-            click.echo(f"dmpcpp: {path} is of an earlier run; renamed to {older.name}.", err=True)
 
 
 def _to_leave_out(lesson: Lesson) -> str:
@@ -226,6 +233,7 @@ def _print_lesson(lesson: Lesson, out: Path | None) -> None:
     metavar="S:X,Y,Z[,QX,QY,QZ,QW]",
     help="Pass this point [m], or pose, at S of the motion, 0.01 to 0.99; may be given several times.",
 )
+@given_option
 @click.option(
     "--cycles", default=5, show_default=True, type=click.IntRange(2, 1000), help="Cycles of a rhythmic MODEL."
 )
@@ -262,6 +270,7 @@ def plan(
     model: Path,
     goal: str | None,
     via: tuple[str, ...],
+    given: tuple[str, ...],
     cycles: int,
     duration: float | None,
     exact_duration: bool,
@@ -284,7 +293,8 @@ def plan(
     from dmpcpp import export, load, planning, simulation
 
     refuse_file(out)
-    learned, engine, around = load(model), simulation.ENGINES.get(simulator), taken_surroundings(arm)
+    known = taken_given(load(model), [_at_phase("--given", text, 0.0, 1.0) for text in given])
+    learned, engine, around = known.model, simulation.ENGINES.get(simulator), taken_surroundings(arm)
     end = _goal(goal, learned)
     chosen = taken_arm(arm)
     export.chosen(formats, chosen)  # what cannot be written is refused before anything runs
@@ -300,14 +310,15 @@ def plan(
         surroundings=around,
         follow=arm["follow"],
         accept=names(accept),
-        via=planning.at_phases(learned, map(_via, via), end) if via else (),
+        via=planning.at_phases(learned, (_at_phase("--via", text, 0.01, 0.99) for text in via), end) if via else (),
         scaling=scaling,
     )
     sent = planning.write(found, out, formats)
     save_config(out / "config.toml")
     if as_json:
-        click.echo(json.dumps(found.summary(), indent=2, allow_nan=False))
+        click.echo(json.dumps(found.summary() | known.summary(), indent=2, allow_nan=False))
     else:
+        known.print()
         _print_plan(found, out)
     whole = print_written(sent, found.ok, "not feasible", quiet=as_json)
     if not (found.ok and whole):
@@ -367,12 +378,14 @@ def _is_rhythmic(model: Any) -> bool:
     return isinstance(model, PoseDmp) and model.options.motion == Motion.rhythmic
 
 
-def _via(text: str) -> tuple[float, Array]:
+def _at_phase(option: str, text: str, first: float, last: float) -> tuple[float, Array]:
     """Return the phase, and the point (3,) or pose (4, 4)."""
     phase, colon, place = text.partition(":")
     if not colon:
-        raise InvalidArgument(f"--via: '{text}', expected S:X,Y,Z with S from 0.01 to 0.99, such as 0.5:0.4,0.1,0.3.")
-    return numbers("--via", phase, 1)[0], _place("--via", place)
+        raise InvalidArgument(
+            f"{option}: '{text}', expected S:X,Y,Z with S from {first:g} to {last:g}, such as 0.5:0.4,0.1,0.3."
+        )
+    return numbers(option, phase, 1)[0], _place(option, place)
 
 
 def _place(option: str, text: str) -> Array:
