@@ -43,6 +43,8 @@ GROUPS = {
         "log_gap": "longest gap in the log",
     },
     "For the robot": {
+        "goal_position": "tool off the last goal at the end",
+        "goal_angle": "tool's orientation off the last goal at the end",
         "robot_ready": "largest share of a limit in what a robot gets",
         "robot_start": "robot's joints off the first sample",
         "robot_end_velocity": "speed at the first and last sample",

@@ -26,13 +26,16 @@ JOINT = """<joint name="{name}" type="revolute"><parent link="{parent}"/><child 
 
 def six_joints(limit: float = 2.5) -> Arm:
     """A wrist on a shoulder: six turning joints, 0.8 m long."""
+    return Arm.from_urdf(six_urdf(limit))
+
+
+def six_urdf(limit: float = 2.5) -> str:
     axes = ("0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0")
     origins = ((0, 0, 0.2), (0, 0, 0.1), (0, 0, 0.3), (0.1, 0, 0), (0.2, 0, 0), (0.1, 0, 0))
     parts = [LINK.format(name=f"l{k}") for k in range(7)]
     for k, (axis, (x, y, z)) in enumerate(zip(axes, origins, strict=True)):
         parts.append(JOINT.format(name=f"j{k}", parent=f"l{k}", child=f"l{k + 1}", x=x, y=y, z=z, axis=axis))
-    text = f"<robot name='six'>{''.join(parts)}</robot>".replace('"2.5"', f'"{limit}"').replace('"-2.5"', f'"-{limit}"')
-    return Arm.from_urdf(text)
+    return f"<robot name='six'>{''.join(parts)}</robot>".replace('"2.5"', f'"{limit}"').replace('"-2.5"', f'"-{limit}"')
 
 
 HOME = np.array([0.2, 0.4, 0.6, 0.3, -0.5, 0.2])

@@ -22,6 +22,7 @@ ALIASES = {
     "name": "arm",
     "noises": "noise",
     "others": "file",
+    "goals": "goal_from",
     "poses": "file",
     "recording": "file",
     "recordings": "files",

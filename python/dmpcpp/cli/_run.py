@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +51,12 @@ _LONG = 1e-3  # s; a cycle of our own work that is longer is counted
     type=click.FloatRange(0.0, 1.0, min_open=True),
     help="Share of the plan's speed.",
 )
+@click.option(
+    "--goal-from",
+    metavar="FILE|stdin|udp://HOST:PORT",
+    help="Move the goal while the robot moves: lines or packets 't x y z [qx qy qz qw]' [s, m, base frame of the arm]; "
+    "udp://:PORT listens to this machine alone. The model of the folder then runs in the loop.",
+)
 @click.option("--from-joints", metavar="Q1,Q2,..", help="Where a simulated robot stands [rad] (default: at the start).")
 @optional_arm_options("The arm of the plan (default: that of the folder).")
 @follow_option
@@ -74,6 +82,7 @@ def run(
     countdown: float | None,
     yes: bool,
     speed: float,
+    goal_from: str | None,
     from_joints: str | None,
     stated: tuple[str, ...],
     accept: tuple[str, ...],
@@ -87,9 +96,13 @@ def run(
     --go: at a terminal while space is held, or after --countdown S; without a terminal only with --yes as well. Ctrl-C
     and a released key slow it down along its path to a stop; a second Ctrl-C leaves the stop to the robot.
 
+    With --goal-from the motion ends where the goal is last seen: the verdict is how near, within which limits. Contacts
+    on the way there are not looked at.
+
     Example: dmpcpp run reach --speed 0.5
     """
     from dmpcpp import export, running
+    from dmpcpp.cli._run_online import OnlineRun
     from dmpcpp.planning import clear_of_itself
     from dmpcpp.robot import Follow
 
@@ -104,6 +117,8 @@ def run(
     around, chosen = taken_surroundings(options), taken_arm(options)
     engine = around.in_world(_engine(simulator))
     stands = numbers("--from-joints", from_joints, chosen.joint_count) if from_joints else joints.position[0]
+    followed = Follow.of(options["follow"] or "pose")
+    online = OnlineRun.of(plan, goal_from, followed, tolerances_of(stated)) if goal_from else None
     robot = running.robot_at(address, chosen, stands, engine=engine)
     try:
         found = _briefed(
@@ -114,17 +129,20 @@ def run(
             raise InvalidArgument(found.problems[0])
         if not (simulated or _may_move(go, countdown, yes)):
             return
-        result = _moved(robot, found, simulated or yes, countdown)
+        moved = partial(online.execute, speed=speed) if online else running.execute
+        result = _moved(moved, robot, found, simulated or yes, countdown)
     finally:
         robot.close()
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "verification.json").unlink(missing_ok=True)
-    running.write_log(folder / "robot.csv", found, result)
+    running.write_log(folder / "robot.csv", found, result, online=online is not None)
     _print_cycles(result, folder / "robot.csv")
     if result.stopped or not result.end.complete:
         click.echo("stopped on the way; not verified." if result.stopped else f"not verified: {result.end.reason}")
         sys.exit(INTERRUPTED if result.stopped else FAILED)
-    judging = {"follow": Follow.of(options["follow"] or "pose"), "accept": names(accept), "simulator": engine}
+    if online:
+        sys.exit(0 if online.verdict(found, result, folder) else FAILED)
+    judging = {"follow": followed, "accept": names(accept), "simulator": engine}
     verified = _verified(found, result, folder, tolerances=tolerances_of(stated), **judging)
     if not verified.ok:
         sys.exit(FAILED)
@@ -166,23 +184,22 @@ def _may_move(go: bool, countdown: float | None, yes: bool) -> bool:
     return True
 
 
-def _moved(robot: Robot, found: Briefing, unwatched: bool, countdown: float | None) -> Run:
+def _moved(execute: Callable[..., Run], robot: Robot, found: Briefing, unwatched: bool, countdown: float | None) -> Run:
     from dmpcpp import running
 
     try:
         if unwatched or countdown is not None:
-            return running.execute(robot, found)
-        return _moved_while_held(robot, found)
+            return execute(robot, found)
+        return _moved_while_held(execute, robot, found)
     except running.RobotError as error:
         raise InvalidArgument(str(error)) from None
 
 
-def _moved_while_held(robot: Robot, found: Briefing) -> Run:
-    from dmpcpp import running
+def _moved_while_held(execute: Callable[..., Run], robot: Robot, found: Briefing) -> Run:
     from dmpcpp.cli._hold_to_run import held_key
 
     with held_key() as released:
-        return running.execute(robot, found, watch=released)
+        return execute(robot, found, watch=released)
 
 
 def _print_briefing(found: Briefing, arm: Any) -> None:

@@ -17,19 +17,21 @@ from dmpcpp.verification import JointLog
 __all__ = ["as_joint_log", "write_log"]
 
 
-def write_log(path: str | PathLike[str], briefing: Briefing, run: Run) -> None:
+def write_log(path: str | PathLike[str], briefing: Briefing, run: Run, *, online: bool = False) -> None:
     """Write every cycle: time [s] (0 at the motion's first sample), joints, velocities, torques, what was commanded,
-    the period [s], our own work in the cycle [s] and the phase (approach, lead-in, motion, lead-out).
+    the period [s], our own work in the cycle [s] and the phase (approach, lead-in, motion, lead-out; of a motion whose
+    goal moved `online` only approach and motion).
     """
     names, log = briefing.plan.joint_names, run.log
     header = ["time", *names]
     header += [f"{name}{suffix}" for suffix in ("_vel", "_torque", "_commanded") for name in names]
     plain = (log["position"], log["velocity"], log["torque"], log["commanded"])
+    phases = np.where(run.time < briefing.plan.time[0], "approach", "motion") if online else _phases(briefing, run.time)
     values = np.column_stack([run.time, *plain, log["period"], log["work"]])
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([*header, "period", "work", "phase"])
-    writer.writerows([*row, phase] for row, phase in zip(values.tolist(), _phases(briefing, run.time), strict=True))
+    writer.writerows([*row, phase] for row, phase in zip(values.tolist(), phases, strict=True))
     write_text(path, text.getvalue())
 
 

@@ -54,16 +54,12 @@ class Follower:
         self._knots = (motion.time - motion.time[0]).tolist()
         self._coefficients = list(quintic_coefficients(motion))
         self._end, self._last = self._knots[-1], motion.position[-1].copy()
+        self.duration = float(self._end / speed)  # s, unless it is stopped
         self._powers, self._states = np.zeros((3, 6)), np.zeros((3, motion.position.shape[1]))
         self._sample = Sample(*self._states)
         self._stops = self._found_stops(arm)
         self._asked, self._watch = False, watch
         self._stop: tuple[float, float, float] | None = None  # when it began, where on the path, how long it takes
-
-    @property
-    def duration(self) -> float:
-        """s, unless it is stopped."""
-        return float(self._end / self.speed)
 
     @property
     def stopping(self) -> bool:

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -17,10 +18,10 @@ from dmpcpp.checks import Check
 from dmpcpp.export import JointSamples
 from dmpcpp.robot import payload_of
 from dmpcpp.running._follower import Follower
-from dmpcpp.running._robot import CycleLog, End, Robot, RobotError, RobotInfo, RobotState
+from dmpcpp.running._robot import CycleLog, End, Robot, RobotError, RobotInfo, RobotState, Sample
 from dmpcpp.sending import Joints, approach, check, joined, nearest_turns, ready, slowed_by, turned
 
-__all__ = ["Briefing", "Run", "brief", "execute"]
+__all__ = ["Briefing", "Run", "Stoppable", "brief", "execute"]
 
 _LOG_SHARE = 2.0  # of the cycles that are expected, taken as memory
 _LOG_MORE = 5.0  # s beyond that
@@ -167,7 +168,30 @@ def _problems(
         )
 
 
-def execute(robot: Robot, briefing: Briefing, *, watch: Callable[[], bool] | None = None) -> Run:
+class Stoppable(Protocol):
+    """Targets of a stream that can be asked to come to rest."""
+
+    duration: float
+    """s, unless it is stopped."""
+
+    @property
+    def stopping(self) -> bool:
+        """Whether a stop was asked for."""
+
+    def stop(self) -> None:
+        """Come to rest from the next call on; from a signal handler or any thread."""
+
+    def __call__(self, time: float) -> Sample | None:
+        """See `Targets`."""
+
+
+def execute(
+    robot: Robot,
+    briefing: Briefing,
+    *,
+    watch: Callable[[], bool] | None = None,
+    targets: Stoppable | None = None,
+) -> Run:
     """Move the robot: the approach and the motion in one stream, stopped along the path on Ctrl-C.
 
     A second Ctrl-C ends the stream and leaves the stop to the robot. The log is whole in all cases.
@@ -179,6 +203,8 @@ def execute(robot: Robot, briefing: Briefing, *, watch: Callable[[], bool] | Non
         Of this robot, just now.
     watch : callable, optional
         Asked in every cycle whether to stop along the path.
+    targets : optional
+        What is streamed instead of the briefing's motion, for instance an `OnlineMotion`.
 
     Raises
     ------
@@ -190,7 +216,7 @@ def execute(robot: Robot, briefing: Briefing, *, watch: Callable[[], bool] | Non
     stands = robot.state()
     if not stands.ready or np.abs(stands.commanded - briefing.state.commanded).max() > _STOOD:
         raise RobotError("the robot has moved or changed its mode since it was looked at. Start again.")
-    follower = Follower(briefing.whole, briefing.arm, watch=watch)
+    follower = targets or Follower(briefing.whole, briefing.arm, watch=watch)
     expected = (_LOG_SHARE * follower.duration + _LOG_MORE) * briefing.info.rate
     log = CycleLog(int(expected), briefing.arm.joint_count)
     with _stopping(follower, robot), _without_collection():
@@ -199,7 +225,7 @@ def execute(robot: Robot, briefing: Briefing, *, watch: Callable[[], bool] | Non
 
 
 @contextmanager
-def _stopping(follower: Follower, robot: Robot) -> Iterator[None]:
+def _stopping(follower: Stoppable, robot: Robot) -> Iterator[None]:
     """Let Ctrl-C and SIGTERM stop along the path, and a second one at once."""
     if threading.current_thread() is not threading.main_thread():
         yield  # only the main thread is sent signals
