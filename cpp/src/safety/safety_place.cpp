@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "safety/approach.hpp"
 #include "safety/safety_step.hpp"
@@ -21,6 +22,7 @@ struct SafetyStep::Place {
   Vector3d next_acceleration = Vector3d::Zero();
   Vector3d wanted = Vector3d::Zero();  ///< the acceleration that leads there
   PlaceLimits limits{};
+  double room = AxisLimits::kNone;  ///< from where it is to what stands still
   std::array<Interval, 3> box{Interval{0.0, 0.0}, Interval{0.0, 0.0}, Interval{0.0, 0.0}};
 
   Vector3d position_with(const Vector3d& acceleration, double dt) const noexcept {
@@ -34,9 +36,8 @@ namespace {
 struct Row {
   Vector3d normal;
   double bound;
-  double height;   ///< h, the distance less what is kept
-  double closing;  ///< -h'
-  bool passable;   ///< the goal lies outside: there is a way around it
+  double height;    ///< h, the distance less what is kept
+  bool in_the_way;  ///< it comes no farther away, and the goal lies outside: there is a way around it
 };
 
 /// The hardest deceleration along a direction.
@@ -49,18 +50,34 @@ double deceleration(const PlaceLimits& limits, const Vector3d& direction) noexce
   return most;
 }
 
-/// A push along the surface, in the direction in which the point moves, or any. Its size is what the row
-/// misses, less as the point gains speed: all that is missed would bring it to missing * duration / 15.
-Vector3d along(const Row& row, const Vector3d& velocity, double missing, double duration) noexcept {
-  const double most = 300.0 / (duration * duration);
-  const double push = std::min(missing, most);
-  const Vector3d tangential = velocity - row.normal.dot(velocity) * row.normal;
+/// What a row leaves missing: how far the wanted acceleration is from keeping it.
+struct Missing {
+  double size = 0.0;
+  Vector3d normal = Vector3d::Zero();
+};
+
+/// The direction along one surface, or the crease of two, in which a point moves, or any.
+Vector3d along(const Missing& deepest, const Missing& second, const Vector3d& velocity) noexcept {
+  constexpr double kParallel = 0.05;
+  constexpr double kHardly = 1e-3;
+  const Vector3d crease = deepest.normal.cross(second.normal);
+  if (crease.norm() > kParallel) return crease.normalized() * (crease.dot(velocity) < 0.0 ? -1.0 : 1.0);
+  const Vector3d tangential = velocity - deepest.normal.dot(velocity) * deepest.normal;
   const double speed = tangential.norm();
-  const double left = std::max(0.0, push - 15.0 * speed / duration);
-  if (speed > 1e-3 * velocity.norm() && speed > 0.0) return left / speed * tangential;
+  if (speed > kHardly * velocity.norm() && speed > 0.0) return tangential / speed;
   Index least = 0;
-  row.normal.cwiseAbs().minCoeff(&least);
-  return left * row.normal.cross(Vector3d::Unit(least)).normalized();
+  deepest.normal.cwiseAbs().minCoeff(&least);
+  return deepest.normal.cross(Vector3d::Unit(least)).normalized();
+}
+
+/// A push along what stands in the way, as large as what is missing, less as the point gains speed: all of it
+/// would bring it to missing * duration / 15.
+Vector3d push(const Missing& deepest, const Missing& second, const Vector3d& velocity,
+              double duration) noexcept {
+  const double most = 300.0 / (duration * duration);
+  const Vector3d direction = along(deepest, second, velocity);
+  const double speed = std::max(0.0, direction.dot(velocity));
+  return std::max(0.0, std::min(deepest.size + second.size, most) - 15.0 * speed / duration) * direction;
 }
 
 /// The nearest rows, no more than a HalfSpaces takes.
@@ -86,27 +103,34 @@ class Rows {
 }  // namespace
 
 /// The barriers of all obstacles, and, where one stands in the way, what is wanted instead: a way along it.
-HalfSpaces SafetyStep::half_spaces(const Place& place, Vector3d& wanted) const noexcept {
+HalfSpaces SafetyStep::half_spaces(Place& place, Vector3d& wanted) const noexcept {
   const double kept = options_.margin + options_.radius + error;
+  constexpr double kComesNearer = -1e-6;  // m/s
   Rows rows;
   for (const std::optional<Obstacle>& obstacle : obstacles_) {
     if (!obstacle) continue;
     const Approach seen = approach(*obstacle, place.position, place.velocity);
-    const double speed = (place.velocity - velocity_of(*obstacle)).norm();
+    const Vector3d& moving = velocity_of(*obstacle);
+    const double speed = (place.velocity - moving).norm();
+    if (moving.isZero(0.0)) place.room = std::min(place.room, seen.near.distance);
     double rate = options_.gain / duration_;
     if (speed > 0.0) rate = std::min(rate, deceleration(place.limits, seen.near.normal) / speed);
     const double height = seen.near.distance - kept;
-    const bool passable = nearness(*obstacle, place.goal).distance > kept;
-    rows.add({seen.near.normal, 2.0 * rate * seen.closing - seen.bend - rate * rate * height, height,
-              seen.closing, passable});
+    const double bound = 2.0 * rate * seen.closing - seen.bend - rate * rate * height;
+    const bool in_the_way = seen.closing > kComesNearer && bound > seen.near.normal.dot(place.wanted) &&
+                            nearness(*obstacle, place.goal).distance > kept;
+    rows.add({seen.near.normal, bound, height, in_the_way});
   }
   HalfSpaces spaces(place.box);
+  Missing deepest, second;
   for (const Row& row : rows) {
     spaces.add(row.normal, row.bound);
-    const double missing = row.bound - row.normal.dot(place.wanted);
-    if (options_.slide && row.passable && row.closing > 0.0 && missing > 0.0)
-      wanted += along(row, place.velocity, missing, duration_);
+    if (!row.in_the_way) continue;
+    Missing missing{row.bound - row.normal.dot(place.wanted), row.normal};
+    if (missing.size > deepest.size) std::swap(missing, deepest);
+    if (missing.size > second.size) second = missing;
   }
+  if (options_.slide && deepest.size > 0.0) wanted += push(deepest, second, place.velocity, duration_);
   return spaces;
 }
 
@@ -124,6 +148,7 @@ bool SafetyStep::is_safe(const Place& place, const Vector3d& position,
   const double kept = 0.5 * options_.margin + options_.radius + error;
   const Braking braking(place.limits, position, velocity, options_.largest_step);
   if (!braking.ends_within(place.limits)) return false;
+  if (place.room - (position - place.position).norm() - braking.way() > kept) return true;
   return std::all_of(obstacles_.begin(), obstacles_.end(), [&](const std::optional<Obstacle>& obstacle) {
     return !obstacle || !velocity_of(*obstacle).isZero(0.0) || braking.clears(*obstacle, kept);
   });
@@ -171,7 +196,7 @@ bool SafetyStep::keep_place(Index first, const AxesStep& step) noexcept {
   Vector3d wanted = place.wanted;
   const HalfSpaces spaces = half_spaces(place, wanted);
   if (is_admitted(place, spaces)) {
-    look_around(place.next_position);
+    remember(place.next_position);
     return false;
   }
   const Vector3d chosen = this->chosen(place, spaces, wanted);
@@ -187,16 +212,21 @@ bool SafetyStep::keep_place(Index first, const AxesStep& step) noexcept {
   if (duration_ * place.next_velocity.norm() < 0.01 && per_phase * chosen.norm() < 1.0 &&
       per_phase * (place.wanted - chosen).norm() > 1.0)
     blocked_ = true;
-  look_around(place.next_position);
+  remember(place.next_position);
   return true;
 }
 
-void SafetyStep::look_around(const Vector3d& position) noexcept {
-  for (const std::optional<Obstacle>& obstacle : obstacles_) {
-    if (!obstacle) continue;
-    const Vector3d then = position - dt_ * velocity_of(*obstacle);
-    clearance_ = std::min(clearance_, nearness(*obstacle, then).distance - options_.radius);
-  }
+void SafetyStep::remember(const Vector3d& position) noexcept {
+  if (places_ < kPlaces) place_[static_cast<std::size_t>(places_++)] = position;
+}
+
+double SafetyStep::clearance() const noexcept {
+  double least = AxisLimits::kNone;
+  for (const std::optional<Obstacle>& obstacle : obstacles_)
+    for (int k = 0; obstacle && k < places_; ++k)
+      least = std::min(least,
+                       nearness(*obstacle, place_[static_cast<std::size_t>(k)]).distance - options_.radius);
+  return least;
 }
 
 }  // namespace dmp::detail

@@ -77,7 +77,7 @@ void SafetyStep::begin_call() noexcept {
 void SafetyStep::begin(double dt, double duration) noexcept {
   dt_ = dt;
   duration_ = duration;
-  clearance_ = AxisLimits::kNone;
+  places_ = 0;
   blocked_ = false;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -54,7 +55,7 @@ class SafetyStep {
   double dt() const noexcept { return dt_; }
   bool changed() const noexcept { return changed_; }
   bool blocked() const noexcept { return blocked_; }
-  double clearance() const noexcept { return clearance_; }
+  double clearance() const noexcept;
 
   const SafetyLimits& limits() const noexcept { return given_; }
   const SafetyOptions& options() const noexcept { return options_; }
@@ -69,14 +70,14 @@ class SafetyStep {
 
   struct Place;
   bool keep_place(Eigen::Index first, const AxesStep& step) noexcept;
-  HalfSpaces half_spaces(const Place& place, Eigen::Vector3d& wanted) const noexcept;
+  HalfSpaces half_spaces(Place& place, Eigen::Vector3d& wanted) const noexcept;
   bool is_within_reserve(const Eigen::Vector3d& position) const noexcept;
   bool is_safe(const Place& place, const Eigen::Vector3d& position,
                const Eigen::Vector3d& velocity) const noexcept;
   bool is_admitted(const Place& place, const HalfSpaces& spaces) const noexcept;
   Eigen::Vector3d chosen(const Place& place, const HalfSpaces& spaces,
                          const Eigen::Vector3d& wanted) noexcept;
-  void look_around(const Eigen::Vector3d& position) noexcept;
+  void remember(const Eigen::Vector3d& position) noexcept;
 
   SafetyLimits given_;
   SafetyOptions options_;
@@ -87,7 +88,9 @@ class SafetyStep {
   double duration_ = 1.0;
   bool changed_ = false;
   bool blocked_ = false;
-  double clearance_ = AxisLimits::kNone;
+  static constexpr int kPlaces = 4;
+  std::array<Eigen::Vector3d, kPlaces> place_;  // where the motion is, of each part that obstacles are for
+  int places_ = 0;
 };
 
 /// What the primitives have of a filter.
