@@ -409,3 +409,43 @@ TEST_CASE("the distance to an obstacle is that of its nearest point, and the nor
     }
   }
 }
+
+TEST_CASE(
+    "with tight limits, too, what lies exactly in the way is passed: a wall, and a gap that is closed") {
+  SafetyLimits limits;
+  limits.velocity = Vector3d::Constant(1.5);
+  limits.acceleration = Vector3d::Constant(5.0);
+  Box left = wall(0.35, 0.03, 0.1), right = left;
+  left.pose(1, 3) = 0.105;
+  right.pose(1, 3) = -0.105;
+  for (const bool gap : {false, true}) {
+    SafetyFilter filter(limits, 2, {0.02});
+    filter.set(0, gap ? left : wall(0.4, 0.03, 0.12));
+    if (gap) filter.set(1, right);
+    const Passed passed = pass(reach_along_x(), filter, 3.0);
+    CHECK(passed.clearance > 0.0195);
+    CHECK((passed.end - Vector3d(0.6, 0, 0)).norm() < 5e-3);
+  }
+}
+
+TEST_CASE(
+    "what turns up so late that its margin is lost is braked before, along the path and within limits") {
+  SafetyLimits limits;
+  limits.acceleration = Vector3d::Constant(6.0);
+  SafetyFilter filter(limits, 1, {0.04});
+  Run run(reach_along_x());
+  for (int i = 0; i < 200; ++i) run.step(0.002, filter);
+  const double speed = run.velocity()[0];
+  const double stop = 0.5 * speed * speed / 6.0;
+  filter.set(0,
+             wall(run.position()[0] + stop + 0.03 + 0.02, 0.04, 1.0));  // the margin cannot be kept, half can
+  bool blocked = false;
+  Vector3d before = run.velocity();
+  for (int i = 0; i < 300; ++i) {
+    blocked = run.step(0.002, filter) == Status::blocked || blocked;
+    REQUIRE(filter.clearance() > 0.02);
+    REQUIRE((run.velocity() - before).cwiseAbs().maxCoeff() <= 0.002 * 6.0 * (1 + 1e-9));
+    before = run.velocity();
+  }
+  CHECK(blocked);
+}

@@ -30,9 +30,9 @@ Vector3d HalfSpaces::clamped(const Vector3d& x) const noexcept {
 
 Vector3d HalfSpaces::nearest(const Vector3d& wanted) const noexcept {
   constexpr int kSweeps = 60;
-  Vector3d x = clamped(wanted);
+  Vector3d x = clamped(wanted);  // what cannot be reached would only take sweeps
   if (admits(x)) return x;
-  Vector3d pull = x - wanted;               // of the intervals
+  Vector3d pull = Vector3d::Zero();         // of the intervals
   std::array<double, kMost> multipliers{};  // of the rows
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const Vector3d before = x;

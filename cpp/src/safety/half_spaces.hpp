@@ -7,8 +7,8 @@
 
 namespace dmp::detail {
 
-/// The point nearest to a wanted one with n_j . x >= b_j of every row, within an interval of each axis, which
-/// counts before the rows.
+/// The point nearest to a wanted one, as far as the interval of each axis allows that, with n_j . x >= b_j of
+/// every row; the intervals count before the rows.
 class HalfSpaces {
  public:
   static constexpr int kMost = 8;
