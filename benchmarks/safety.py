@@ -15,7 +15,20 @@ from dataclasses import dataclass
 
 import click
 import numpy as np
-from dmpcpp import Box, Demonstration, Dmp, DmpOptions, DmpParameters, Run, SafetyFilter, Sphere, Status, so3
+from dmpcpp import (
+    Box,
+    Demonstration,
+    Dmp,
+    DmpOptions,
+    DmpParameters,
+    InvalidArgument,
+    Run,
+    SafetyFilter,
+    Sphere,
+    Status,
+    planning,
+    so3,
+)
 from numpy.typing import NDArray
 
 from benchmarks import accuracy, peers
@@ -180,6 +193,32 @@ def measure_hard(seed: int) -> Iterator[Figure]:
         )
 
 
+def measure_plans(seed: int) -> Iterator[Figure]:
+    """One verified bump, planned before the motion begins."""
+    still = scenes(seed, False)
+    found = [_planned(scene) for scene in still]
+    none = 100.0 * float(np.mean([one is None for one in found]))
+    bumps = [one for one in found if one is not None]
+    yield Figure("planned: no way found", none, 2.0, "%")
+    yield Figure("planned: nearer than 2 cm", 1e3 * max(0.0, _MARGIN - min(one[0] for one in bumps)), 0.0, "mm")
+    yield Figure("planned: path length, median", float(np.median([one[1] for one in bumps])), 1.05, "x")
+    yield Figure("planned: peak acceleration, median", float(np.median([one[2] for one in bumps])), 1.1, "x")
+
+
+def _planned(scene: Scene) -> tuple[float, float, float] | None:
+    """Return the least distance (m) at 10001 samples, and length and peak acceleration over the plain motion's."""
+    model = scene.model()
+    try:
+        detour = planning.clear_path(model, scene.obstacles, margin=_MARGIN)
+    except InvalidArgument:
+        return None
+    plain = model.rollout(dt=1e-4)
+    moved = model.rollout(dt=1e-4, via=[detour.via]) if detour else plain
+    lengths = [float(np.linalg.norm(np.diff(one.position, axis=0), axis=1).sum()) for one in (moved, plain)]
+    peaks = [float(np.linalg.norm(one.acceleration, axis=1).max()) for one in (moved, plain)]
+    return scene.free(moved.position), lengths[0] / lengths[1], peaks[0] / peaks[1]
+
+
 def measure_durations(seed: int) -> Iterator[Figure]:
     """The same scenes in 1, 2 and 4 s."""
     few = scenes(seed, False)[:20]
@@ -279,7 +318,7 @@ def _peer_hits(still: list[Scene]) -> dict[str, float]:
 
 def measure(seed: int = 0) -> Iterator[Figure]:
     """Yield every figure."""
-    for part in (measure_scenes, measure_hard, measure_durations, measure_limits, measure_cost):
+    for part in (measure_scenes, measure_hard, measure_plans, measure_durations, measure_limits, measure_cost):
         yield from part(seed)
 
 

@@ -194,3 +194,42 @@ def test_a_fixed_motion_is_imitated_around_an_obstacle_under_physics():
     assert run.summary()["obstacles"] == [{"name": "obstacle", "shape": "sphere:0.45,0,0.42,0.05"}]
     kept = around.obstacles[0].shape.distance(run.log.tool_pose[:, :3, 3])
     assert kept.min() > 0.01
+
+
+def straight(axes=3):
+    """A straight reach of 0.6 m as a model of positions."""
+    time = np.linspace(0.0, 1.0, 101)
+    path = np.zeros((101, axes))
+    path[:, 0] = 0.6 * time**3 * (10 - 15 * time + 6 * time**2)
+    return dmpcpp.Dmp.fit(dmpcpp.Demonstration(time, path))
+
+
+@pytest.mark.parametrize(
+    "text", ["sphere:0.3,0,0,0.08", "box:0.25,0.02,0,0.04,0.2,0.3", "capsule:0.3,-1,0,0.3,1,0,0.05"]
+)
+def test_a_path_is_planned_clear_with_its_ends_kept_and_the_proof_holds(text):
+    [obstacle] = obstacles_of(text)
+    model = straight()
+    detour = planning.clear_path(model, [obstacle.shape], margin=0.02)
+    moved = model.rollout(dt=1e-4, via=[detour.via])
+    finely = obstacle.shape.distance(moved.position).min()
+    assert 0.02 <= detour.clearance <= finely + 1e-9
+    np.testing.assert_allclose(moved.position[[0, -1]], model.rollout().position[[0, -1]], atol=1e-9)
+    run = dmpcpp.Run(model)
+    run.via(detour.via.phase, detour.via.point, reach=detour.via.reach)
+    nearest = np.inf
+    while run.step(1e-3):
+        nearest = min(nearest, obstacle.shape.distance(run.position))
+    assert nearest >= 0.02
+
+
+def test_a_new_goal_is_planned_for_anew_and_a_clear_path_needs_nothing():
+    model = straight()
+    [ball] = obstacles_of("sphere:0.3,0.15,0,0.06")
+    assert planning.clear_path(model, [ball.shape]) is None
+    assert planning.clear_path(model, []) is None
+    goal = [0.5, 0.3, 0.0]
+    detour = planning.clear_path(model, [ball.shape], goal=goal)
+    assert ball.shape.distance(model.rollout(goal, via=[detour.via]).position).min() >= 0.01
+    with pytest.raises(InvalidArgument, match="the goal of the motion lies"):
+        planning.clear_path(model, [ball.shape], goal=[0.3, 0.15, 0.0])

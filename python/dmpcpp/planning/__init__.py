@@ -8,7 +8,7 @@ A recorded motion is placed by one similarity transform (`place`, `anchor`); `pl
 """
 
 from dmpcpp.planning._anchoring import Reach, anchor, anchor_within_reach, reach
-from dmpcpp.planning._avoidance import Detour, place_among, solve_around
+from dmpcpp.planning._avoidance import Detour, clear_path, place_among, solve_around
 from dmpcpp.planning._bound import Bound, arm_bound
 from dmpcpp.planning._clearance import ClearOfItself, LookedAt, clear_of_itself, require_free_postures
 from dmpcpp.planning._cycles import Cycles
@@ -45,6 +45,7 @@ __all__ = [
     "arm_bound",
     "at_phases",
     "clear_of_itself",
+    "clear_path",
     "fitted",
     "limit_factor",
     "place",

@@ -15,16 +15,16 @@ from itertools import islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dmpcpp._core import Arm, Box, Capsule, Plane, PoseDmp, Sphere, Via
+from dmpcpp._core import Arm, Box, Capsule, Dmp, Plane, PoseDmp, PoseTrajectory, Sphere, Trajectory, Via
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
 from dmpcpp.planning._clearance import ClearOfItself, clear_of_itself
 from dmpcpp.planning._joints import Engine, Led, Solution
 from dmpcpp.planning._placement import Placement
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import Obstacle, Surroundings, base_in_root
+from dmpcpp.robot import OBSTACLE_MARGIN, Obstacle, Surroundings, base_in_root
 
-__all__ = ["Detour", "place_among", "solve_around"]
+__all__ = ["Detour", "clear_path", "place_among", "solve_around"]
 
 _SAMPLES = 400  # of the tool's path
 _SIZES = np.geomspace(0.02, 0.5, 14)  # m
@@ -145,6 +145,64 @@ def _attempts(
             yield candidate, offset, clear
 
 
+def clear_path(
+    model: Dmp | PoseDmp,
+    obstacles: Sequence[Sphere | Box | Capsule | Plane],
+    *,
+    margin: float = OBSTACLE_MARGIN,
+    goal: ArrayLike | None = None,
+    via: Sequence[Via] = (),
+) -> Detour | None:
+    """Return a via-point with which the path of a motion keeps a margin from obstacles that stand still.
+
+    For the point that moves alone, without an arm. Plan again where the goal moves. Pass it on as
+    `model.rollout(goal, via=[detour.via])` or `run.via(detour.via.phase, detour.via.point, reach=detour.via.reach)`.
+
+    Parameters
+    ----------
+    model : Dmp (3 axes) or PoseDmp
+    obstacles : sequence of Sphere, Box, Capsule or Plane
+        m, in the frame of the motion.
+    margin : float
+        m, above 0.
+    goal, via
+        As of `rollout`.
+
+    Returns
+    -------
+    Detour or None
+        None where the path is clear as it is. `clearance` is proven between the samples, too: of a segment no more than
+        half its length is lost.
+
+    Raises
+    ------
+    InvalidArgument
+        Start or goal lie in an obstacle, or no bump of up to 50 cm will do.
+    """
+    named = tuple(Obstacle(f"obstacle {k}", shape) for k, shape in enumerate(obstacles))
+    if not named:
+        return None
+    scene = _Scene(Surroundings(obstacles=named, margin=margin), np.eye(4))
+    times = np.linspace(0.0, model.duration, _SAMPLES + 1)
+    places = _places(model.rollout_at(times, goal, via=list(via)))
+    scene.require_ends(places)
+    blamed = scene.names_within(places, margin)
+    if not blamed:
+        return None
+    phase = float(np.clip(np.argmin(scene.distances(places)) / _SAMPLES, 0.15, 0.85))
+    for candidate, offset in _detours(model, scene, goal, via, phase):
+        kept = scene.proven(_places(model.rollout_at(times, goal, via=_in_order([*via, candidate]))))
+        if kept >= margin:
+            return Detour(candidate, offset, kept, blamed)
+    raise InvalidArgument(_no_way(blamed, 0, margin))
+
+
+def _places(motion: Trajectory | PoseTrajectory) -> Array:
+    """Return the places (T, 3) of a motion."""
+    places: Array = motion.pose[:, :3, 3] if isinstance(motion, PoseTrajectory) else motion.position
+    return places
+
+
 def place_among(
     policy: Callable[..., Placement],
     recording: Recording,
@@ -258,14 +316,15 @@ def _worst_phase(scene: _Scene, clear: ClearOfItself | None, solution: Solution)
 
 
 def _detours(
-    model: PoseDmp, scene: _Scene, goal: ArrayLike | None, via: Sequence[Via], phase: float
+    model: Dmp | PoseDmp, scene: _Scene, goal: ArrayLike | None, via: Sequence[Via], phase: float
 ) -> Iterator[tuple[Via, float]]:
     """Yield bumps with which the tool's path is clear, the smallest first."""
     while any(abs(one.phase - phase) < 0.02 for one in via):
         phase += 0.03
     times = np.linspace(0.0, model.duration, _SAMPLES + 1)
-    path = model.rollout_at(times, goal, via=via).pose
-    places, pose = path[:, :3, 3], path[round(phase * _SAMPLES)]
+    path = model.rollout_at(times, goal, via=list(via))
+    places = _places(path)
+    pose = np.array((path.pose if isinstance(path, PoseTrajectory) else path.position)[round(phase * _SAMPLES)])
     across = _across(places, round(phase * _SAMPLES))
     bumps = [(reach, *_bump(model, times, goal, via, phase, pose, reach)) for reach in _REACHES]
     for size in _SIZES:
@@ -280,7 +339,7 @@ def _detours(
 
 
 def _bump(
-    model: PoseDmp,
+    model: Dmp | PoseDmp,
     times: Array,
     goal: ArrayLike | None,
     via: Sequence[Via],
@@ -295,13 +354,15 @@ def _bump(
         model.rollout_at(times, goal, via=_in_order([*via, Via(phase, _aside(pose, by * aside), reach=fitting)]))
         for by in (0.0, small)
     )
-    share: Array = (moved.pose[:, 0, 3] - plain.pose[:, 0, 3]) / small
+    share: Array = (_places(moved)[:, 0] - _places(plain)[:, 0]) / small
     return fitting, share
 
 
 def _aside(pose: Array, by: Array) -> Array:
+    """Return a place (3,) or pose (4, 4) that is moved."""
     moved = pose.copy()
-    moved[:3, 3] += by
+    place = moved if pose.ndim == 1 else moved[:3, 3]
+    place += by
     return moved
 
 
