@@ -1,4 +1,4 @@
-"""`python -m benchmarks.adaptation [--json]`: via-points, joins and rhythm, beside other packages in one run.
+"""`python -m benchmarks.adaptation [--json]`: via-points, joins, rhythm and distributions, beside other packages.
 
 On curves of its own; with DMPCPP_LETTERS, an .npz of handwritten letters (one array (demonstrations, samples, 2) each),
 on these too. Exit status: 0 every goal reached, 3 one missed.
@@ -33,7 +33,7 @@ from dmpcpp import (
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from benchmarks import accuracy, peers
+from benchmarks import accuracy, distributions, peers
 from benchmarks.figures import Figure
 
 Array = NDArray[np.float64]
@@ -73,6 +73,9 @@ def measure() -> Iterator[Figure]:
             yield from via_points(name, motions)
             yield from moving(name, motions)
             yield from joins(name, motions)
+            yield from distributions.planar(name, motions)
+    yield from distributions.poses()
+    yield from distributions.costs()
     yield from via_poses()
     yield from times()
     yield from rhythm()
@@ -436,7 +439,7 @@ def _rms(away: Array) -> float:
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print the figures as JSON instead of the table.")
 def main(as_json: bool) -> None:
-    """Measure via-points, joins and rhythmic motions, with the goal of every figure."""
+    """Measure via-points, joins, rhythmic motions and distributions, with the goal of every figure."""
     measured = list(measure())
     if as_json:
         click.echo(json.dumps({"figures": [figure.to_dict() for figure in measured]}, indent=2))

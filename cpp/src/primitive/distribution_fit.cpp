@@ -17,6 +17,7 @@ constexpr double kLeastSpread = 1e-12;     // variance of a weight, of the squar
 constexpr double kStartSpread = 1e-6;      // added to the first covariance, of its mean diagonal
 constexpr double kRidge = 1e-9;            // of the mean diagonal of B^T B
 constexpr double kSpreadRounding = 1e-10;  // of the mean diagonal of the covariance
+constexpr double kSettled = 1e-3;          // change of covariance and noise in a pass
 // Samples per control point that count in full: what splines leave of a motion is not white, so that more
 // samples of it say no more.
 constexpr double kSamples = 4.0;
@@ -76,6 +77,26 @@ MatrixXd blocks_of(const MatrixXd& covariance, Index axes) {
   return blocks;
 }
 
+/// (F^-T F^-1 + A)^-1, A the information of B^T B and the variances (d) of noise: halves of what is
+/// symmetric.
+MatrixXd left_open(const MatrixXd& gram, const VectorXd& variance, const MatrixXd& factor) {
+  const Index axes = variance.size();
+  const VectorXd weight = variance.cwiseInverse();
+  MatrixXd seen = MatrixXd::Zero(factor.rows(), factor.cols());
+  for (Index i = 0; i < gram.rows(); ++i)
+    for (Index j = std::max<Index>(0, i - 3); j < std::min(gram.rows(), i + 4); ++j)
+      seen.middleRows(i * axes, axes) +=
+          (gram(i, j) * weight).asDiagonal() * factor.middleRows(j * axes, axes);
+  MatrixXd inner(factor.rows(), factor.cols());
+  inner.triangularView<Eigen::Lower>() = factor.transpose() * seen;
+  inner.diagonal().array() += 1.0;
+  const MatrixXd half = Eigen::LLT<MatrixXd>(inner).matrixL().solve(MatrixXd(factor.transpose()));
+  MatrixXd open = MatrixXd::Zero(factor.rows(), factor.cols());
+  open.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
+  open.triangularView<Eigen::StrictlyUpper>() = open.transpose();
+  return open;
+}
+
 class Expectation {
  public:
   Expectation(std::vector<Example> examples, std::vector<Index> parts, const DistributionOptions& options)
@@ -85,7 +106,8 @@ class Expectation {
   }
 
   WeightFit run() {
-    for (int k = 0; k < options_.iterations; ++k) iterate();
+    for (int k = 0; k < options_.iterations && !iterate(); ++k) {
+    }
     return {{mean_, MatrixXd(covariance_.llt().matrixL())}, noise_.cwiseSqrt()};
   }
 
@@ -116,7 +138,10 @@ class Expectation {
           squares.segment(first, parts_[p]).sum() / (samples * static_cast<double>(parts_[p])), kLeastNoise);
   }
 
-  void iterate() {
+  /// True once nothing changes any more.
+  bool iterate() {
+    const MatrixXd covariance = covariance_;
+    const VectorXd noise = noise_;
     const VectorXd variance = by_axis(noise_, parts_);
     const MatrixXd factor = covariance_.llt().matrixL();
     std::vector<VectorXd> found(examples_.size());
@@ -125,16 +150,14 @@ class Expectation {
     for (std::size_t m = 0; m < examples_.size(); ++m) {
       const Information seen = information_of(examples_[m].sums, variance);
       const auto like = static_cast<std::size_t>(examples_[m].like);
-      if (like == m) {
-        WeightGaussian posterior{mean_, factor};
-        condition(posterior, seen);
-        spread[m] = posterior.factor * posterior.factor.transpose();
-      }
+      if (like == m) spread[m] = left_open(examples_[m].sums.gram, variance, factor);
       found[m] = mean_ + spread[like] * (seen.vector - seen.matrix * mean_);
       mean += found[m] / count();
     }
     mean_ = mean;
     update(found, spread);
+    return (covariance_ - covariance).norm() < kSettled * covariance.norm() &&
+           (noise_ - noise).norm() < kSettled * noise.norm();
   }
 
   void update(const std::vector<VectorXd>& found, const std::vector<MatrixXd>& spread) {
