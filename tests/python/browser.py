@@ -36,14 +36,15 @@ def look(
     size: str = "1280,2000",
     media: str = "screen",
     patience: float = 240.0,
+    flags: tuple[str, ...] = (),
 ) -> Seen:
     """Open a file or an address, and run scripts in it and take its picture again and again until it is as wanted.
 
-    `media` is "screen" or "print". A page that is not as wanted after `patience` [s] is returned as it is. Skips
+    `flags` are for Chromium. `media` is "screen" or "print". A page that is not as wanted after `patience` [s] is returned as it is. Skips
     where there is no Chromium.
     """
     connect = pytest.importorskip("websockets.sync.client").connect
-    with _chromium(folder, size) as address, connect(address, max_size=None) as socket:
+    with _chromium(folder, size, flags) as address, connect(address, max_size=None) as socket:
         page = _Page(socket)
         target = page.call("Target.createTarget", url="about:blank")["targetId"]
         page.session = page.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
@@ -110,7 +111,7 @@ class _Page:
 
 
 @contextmanager
-def _chromium(folder: Path, size: str) -> Iterator[str]:
+def _chromium(folder: Path, size: str, more: tuple[str, ...] = ()) -> Iterator[str]:
     program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if program is None:
         pytest.skip("Chromium is not installed (Debian: apt install chromium)")
@@ -119,7 +120,7 @@ def _chromium(folder: Path, size: str) -> Iterator[str]:
     quiet = ("--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync")
     profile = folder / "chromium"
     process = subprocess.Popen(
-        [program, *flags, *drawing, *quiet, f"--user-data-dir={profile}", "about:blank"],
+        [program, *flags, *drawing, *quiet, *more, f"--user-data-dir={profile}", "about:blank"],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )

@@ -25,6 +25,7 @@ from dmpcpp.cameras._tags import Tag, TagFinder, body_of_tags
 from dmpcpp.cameras._tracker import Seen, Tracker
 from dmpcpp.cameras._two_views import fit_two_views, triangulate
 from dmpcpp.cameras._units import angle
+from dmpcpp.cameras._viewfinder import Viewfinder
 from dmpcpp.cameras._watch import Watched, watch_hand
 
 __all__ = [
@@ -47,6 +48,7 @@ __all__ = [
     "TagSetup",
     "Tracker",
     "Video",
+    "Viewfinder",
     "Watched",
     "accuracy_of",
     "angle",

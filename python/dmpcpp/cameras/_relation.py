@@ -55,7 +55,7 @@ def sampson(matrix: Array, first: Array, second: Array) -> Array:
     return np.asarray(np.einsum("ni,ni->n", b, left) / np.maximum(scale, 1e-12))
 
 
-def relate(first: Array, second: Array, deviation: float) -> Relation | None:
+def relate(first: Array, second: Array, deviation: float, near: Relation | None = None) -> Relation | None:
     """Return the relation, with a translation of length 1, that rays (N, 2) of the same points show; None if none.
 
     Parameters
@@ -64,14 +64,12 @@ def relate(first: Array, second: Array, deviation: float) -> Relation | None:
         Rays without NaN.
     deviation : float
         Beyond which a distance of a ray counts less.
+    near : Relation, optional
+        Where to start in place of what eight points say.
     """
     if len(first) < 40:
         return None
-    weight = np.ones(len(first))
-    for _ in range(_ROUNDS):
-        matrix = essential(first, second, weight)
-        weight = 1.0 / np.sqrt(1.0 + (sampson(matrix, first, second) / deviation) ** 2)
-    start = _pose_of(matrix, first, second)
+    start = _by_eight_points(first, second, deviation) if near is None else (near.rotation, near.translation)
     if start is None:
         return None
     rotation, translation = start
@@ -87,6 +85,14 @@ def relate(first: Array, second: Array, deviation: float) -> Relation | None:
     if in_front(rotation, translation, first, second).mean() < 0.75:
         return None
     return Relation(rotation, translation, error)
+
+
+def _by_eight_points(first: Array, second: Array, deviation: float) -> tuple[Array, Array] | None:
+    weight = np.ones(len(first))
+    for _ in range(_ROUNDS):
+        matrix = essential(first, second, weight)
+        weight = 1.0 / np.sqrt(1.0 + (sampson(matrix, first, second) / deviation) ** 2)
+    return _pose_of(matrix, first, second)
 
 
 def in_front(rotation: Array, translation: Array, first: Array, second: Array) -> NDArray[np.bool_]:

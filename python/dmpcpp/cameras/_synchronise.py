@@ -1,8 +1,8 @@
 """When the second camera's clock shows what: found from the hand that both saw, without a clap or a flash.
 
 At the right shift the rays of both cameras meet; at a wrong one they do not, wherever the cameras stand. The whole
-range is searched with the eight-point algorithm, among shifts at which both see most of the motion; the best is refined
-with the full relation.
+range is searched with the eight-point algorithm, among shifts at which both see most of the motion; the lowest valleys
+are looked at with the full relation, and the best is refined.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ _OVERLAP = 0.5  # of the way that the hand goes in either picture, which both mu
 _LONG = 20.0  # s; shorter videos do not show that clocks run at different rates
 _COARSE = (0, 1, 5, 9, 13, 17, 8, 12, 20)  # landmarks of the coarse search
 _MOST_DRIFT = 2e-3
+_VALLEYS, _THINNED = 16, 600  # of the coarse cost that are looked at closely; rays for that
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 
@@ -74,12 +75,20 @@ def synchronise(
     costs = {shift: cost for shift, cost in costs.items() if np.isfinite(cost)}
     if not costs:
         return None
-    start = min(costs, key=lambda shift: costs[shift])
-    best = _refined(lambda shift: _fine(first, second, shift, relation), start)
+    fine = {shift: _fine(first, second, shift, relation, _THINNED) for shift in _lowest(costs)}
+    start = min(fine, key=lambda shift: fine[shift])
+    best = _refined(_Fine(first, second, relation), start)
     if not np.isfinite(best[1]):
         return None
     found = Shift(best[0], 0.0, best[1])
     return _with_drift(first, second, found, relation)
+
+
+def _lowest(costs: dict[float, float]) -> list[float]:
+    """Return the shifts of the lowest valleys of the coarse cost: eight points alone often prefer a wrong one."""
+    shifts, values = list(costs), [np.inf, *costs.values(), np.inf]
+    valleys = [shift for k, shift in enumerate(shifts) if values[k + 1] <= min(values[k], values[k + 2])]
+    return sorted(valleys, key=lambda shift: costs[shift])[:_VALLEYS]
 
 
 def _plausible(first: Landmarks, second: Landmarks, longest: float) -> list[float]:
@@ -118,15 +127,44 @@ def _coarse(first: Landmarks, second: Landmarks, shift: float, relation: Relatio
     return _mean_error(sampson(matrix, a, b), second.deviation)
 
 
-def _fine(first: Landmarks, second: Landmarks, shift: float, relation: Relation | None) -> float:
+def _fine(first: Landmarks, second: Landmarks, shift: float, relation: Relation | None, most: int = 4000) -> float:
     a, b = paired_rays(first, second, Shift(shift))
-    thin = max(1, len(a) // 4000)
+    thin = max(1, len(a) // most)
     a, b = a[::thin], b[::thin]
     if relation is None:
         relation = relate(a, b, second.deviation)
     if relation is None or len(a) < 40:
         return np.inf
-    return _mean_error(sampson(cross_matrix(relation.translation) @ relation.rotation, a, b), second.deviation)
+    return _cost_of(a, b, relation, second.deviation)
+
+
+class _Fine:
+    """The cost of a shift: each search for the relation starts at eight points and at the best one so far."""
+
+    def __init__(self, first: Landmarks, second: Landmarks, known: Relation | None) -> None:
+        self.views, self.known = (first, second), known
+        self.best: tuple[float, Relation] | None = None
+
+    def __call__(self, shift: float) -> float:
+        first, second = self.views
+        if self.known is not None:
+            return _fine(first, second, shift, self.known)
+        a, b = paired_rays(first, second, Shift(shift))
+        thin = max(1, len(a) // 2000)
+        a, b = a[::thin], b[::thin]
+        found = [relate(a, b, second.deviation)]
+        found += [relate(a, b, second.deviation, self.best[1])] if self.best else []
+        costs = [(_cost_of(a, b, each, second.deviation), each) for each in found if each is not None]
+        if not costs:
+            return float("inf")
+        lowest = min(costs, key=lambda pair: pair[0])
+        self.best = lowest if self.best is None or lowest[0] < self.best[0] else self.best
+        return lowest[0]
+
+
+def _cost_of(first: Array, second: Array, relation: Relation, deviation: float) -> float:
+    matrix = cross_matrix(relation.translation) @ relation.rotation
+    return _mean_error(sampson(matrix, first, second), deviation)
 
 
 def _mean_error(error: Array, deviation: float) -> float:
@@ -134,11 +172,14 @@ def _mean_error(error: Array, deviation: float) -> float:
     return float(np.sqrt(np.mean(2.0 * (np.sqrt(1.0 + (error / deviation) ** 2) - 1.0))))
 
 
-def _refined(cost, start: float, reach: float = 2.0 * _GRID):  # type: ignore[no-untyped-def]
-    """Return the shift of the least cost about a start, and that cost: a grid, then golden section."""
+def _refined(cost, start: float, reach: float = 2.0 * _GRID, further: int = 4):  # type: ignore[no-untyped-def]
+    """Return the shift of the least cost about a start, and that cost: a grid that may move on, then golden section."""
     grid = start + np.linspace(-reach, reach, 9)
     costs = [cost(shift) for shift in grid]
+    costs = [min(before, cost(shift)) for before, shift in zip(costs, grid, strict=True)]  # from the best relation
     k = int(np.argmin(costs))
+    if k in (0, len(grid) - 1) and further:
+        return _refined(cost, float(grid[k]), reach, further - 1)
     low, high = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
     while high - low > 0.002:
         a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)

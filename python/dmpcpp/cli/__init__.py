@@ -1,5 +1,5 @@
 """The command line: `dmpcpp demo | imitate | inspect | fit | plan | reproduce | grasp | generality | run | verify |
-view | report | batch | arms | check-urdf | doctor | fetch | tag | example`.
+view | report | batch | arms | check-urdf | doctor | fetch | record | tag | example`.
 
 Exit status: 0 verified, 2 wrong usage or input, 3 the run did not meet its checks.
 """
@@ -16,6 +16,7 @@ from dmpcpp.cli._group import main
 from dmpcpp.cli._imitation import demo, imitate
 from dmpcpp.cli._inspection import inspect
 from dmpcpp.cli._learning import fit, plan
+from dmpcpp.cli._record import record
 from dmpcpp.cli._reproduction import reproduce
 from dmpcpp.cli._run import run
 from dmpcpp.cli._show import report, view
@@ -42,6 +43,7 @@ _COMMANDS = (
     check_urdf,
     doctor,
     fetch,
+    record,
     tag,
     example,
 )
