@@ -20,6 +20,7 @@ _FAR = 0.1  # m that a miss of 1 rad counts as; a pose that is missed by more co
 _TOO_LOW = 10.0  # per m
 _LONGER, _SHORTER = 1.5, 0.9  # of the next change, after one that helped and after one that did not: one in five helps
 _STEPS = (0.02, 2.0)
+_PATIENCE = 150  # changes in a row that help nothing, after which no further one is tried
 
 
 def missed_by(solved: Any, poses: Array, floor: float) -> float:
@@ -45,13 +46,14 @@ def approached(
 
     `tilt` is how far the tool may be turned in the hand [rad].
     """
-    least, step = miss(placement), 1.0
+    least, step, idle = miss(placement), 1.0, 0
     for _ in range(changes):
-        if least <= 0.0:
+        if least <= 0.0 or idle == _PATIENCE:
             break
         other = neighbour(placement, random, step, scale, tilt)
         missed = miss(other)
         step = float(np.clip(step * (_LONGER if missed < least else _SHORTER), *_STEPS))
+        idle = 0 if missed < least else idle + 1
         if missed < least:
             placement, least = other, missed
     return placement, least
