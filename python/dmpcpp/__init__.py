@@ -4,9 +4,9 @@ The core (``Dmp``, ``OrientationDmp``, ``PoseDmp`` and their runs, ``so3``, mode
 ``InverseKinematics``) are C++. Around them are modules, imported when they are used: ``recordings`` and ``inspection``
 (files), ``motion`` (cleaning, cutting, noise), ``learning``, ``arms`` and ``urdf_check`` (robots), ``retarget``
 (placement), ``planning``, ``simulation``, ``imitation`` (the whole flow), ``export``, ``verification`` (logs of real
-arms), ``variation`` (how takes differ), ``checks``, ``metrics``, ``comparison``, ``plot``, ``view``, ``scene`` and
-``report`` (pictures), ``batch``, ``generality`` and ``reproduction`` (many runs), ``grasp``, ``examples`` (small
-recordings to try), ``doctor`` (the installation), and ``errors``.
+arms), ``variation`` (how takes differ), ``two_hands``, ``checks``, ``metrics``, ``comparison``, ``plot``, ``view``,
+``scene`` and ``report`` (pictures), ``batch``, ``generality`` and ``reproduction`` (many runs), ``grasp``,
+``examples`` (small recordings to try), ``doctor`` (the installation), and ``errors``.
 Times are in s, lengths in m, angles in rad; arrays are float64.
 """
 
@@ -43,6 +43,7 @@ _MODULES = frozenset(
         "scene",
         "simulation",
         "teaching",
+        "two_hands",
         "urdf_check",
         "variation",
         "verification",
