@@ -15,6 +15,7 @@ from dmpcpp.grasp._reach import laid, longest_reach, resting
 from dmpcpp.grasp._task import hand_pose
 from dmpcpp.grasp._verdict import GraspTolerances
 from dmpcpp.recordings import Recording
+from dmpcpp.robot import Surroundings, obstacles_of
 from dmpcpp.simulation import PANDA_HAND, Cylinder, Friction, GraspWorld
 from scipy.spatial.transform import Rotation
 
@@ -371,3 +372,32 @@ def test_wrong_usage_is_one_clear_error_and_status_2(arguments, message, tmp_pat
     done = run(*arguments, cwd=tmp_path)
     assert done.returncode == 2 and message in done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_among_posts_the_bottle_is_held_up_without_touching_one():
+    bottle = Bottle()
+    posts = grasp.clutter(4, bottle, np.random.default_rng(5))
+    around = Surroundings(obstacles=posts)
+    run = grasp.grasp(Planner(grasp.default_reach(), arms.find("panda"), surroundings=around), bottle)
+    assert run.ok, [check.name for check in run.failed]
+    assert run["arm_contact"].value == 0
+    assert len(run.summary()["obstacles"]) == 4
+    hand = run.plan.poses[:, :3, 3]
+    assert min(post.shape.distance(hand).min() for post in posts) > around.margin
+
+
+def test_what_stands_around_the_bottle_and_leaves_no_way_is_named():
+    wall = obstacles_of("box:0.36,0,0.4,0.02,1.2,1.6")
+    planner = Planner(grasp.default_reach(), arms.find("panda"), surroundings=Surroundings(obstacles=wall))
+    with pytest.raises(InvalidArgument, match="most often .* (touch|within 10 mm of) obstacle"):
+        planner.plan(Bottle())
+
+
+def test_clutter_is_drawn_by_its_seed_and_leaves_room():
+    bottle = Bottle(x=0.5, y=0.1)
+    posts = grasp.clutter(20, bottle, np.random.default_rng(1))
+    again = grasp.clutter(20, bottle, np.random.default_rng(1))
+    assert [post.text() for post in posts] == [post.text() for post in again]
+    assert len({post.name for post in posts}) == 20
+    axis = np.c_[np.full(50, 0.5), np.full(50, 0.1), np.linspace(0, 1, 50)]
+    assert min(post.shape.distance(axis).min() for post in posts) > 0.09

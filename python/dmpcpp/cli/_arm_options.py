@@ -21,6 +21,7 @@ __all__ = [
     "arm_options",
     "contact_options",
     "follow_option",
+    "obstacle_options",
     "optional_arm_options",
     "taken_arm",
     "taken_choice",
@@ -99,6 +100,13 @@ def contact_options(command: Callable[..., None]) -> Callable[..., None]:
             metavar="A,B",
             help="Two links that may touch, or a link and floor; repeatable. An .srdf beside the URDF is read, too.",
         ),
+    )
+    return obstacle_options(add_options(command, options))
+
+
+def obstacle_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add --obstacle and --obstacle-margin."""
+    options = (
         click.option(
             "--obstacle",
             multiple=True,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dmpcpp.cli._add_options import add_options
-from dmpcpp.cli._arm_options import follow_option
+from dmpcpp.cli._arm_options import follow_option, obstacle_options
 from dmpcpp.cli._group import FAILED, refuse_file
 from dmpcpp.cli._robot_files import export_option, print_written
 from dmpcpp.cli._tables import mark, note_style, number
@@ -72,6 +72,14 @@ def _recording_options(command: Callable[..., None]) -> Callable[..., None]:
 @_bottle_options
 @_recording_options
 @follow_option
+@obstacle_options
+@click.option(
+    "--clutter",
+    default=0,
+    metavar="K",
+    type=click.IntRange(0, 50),
+    help="Posts around the bottle, drawn from --seed, that the arm must not touch.",
+)
 @click.option(
     "--video",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -94,6 +102,9 @@ def grasp(
     friction: float | None,
     seed: int | None,
     follow: str | None,
+    obstacle: tuple[str, ...],
+    obstacle_margin: float,
+    clutter: int,
     video: Path | None,
     out: Path | None,
     formats: tuple[str, ...],
@@ -106,10 +117,12 @@ def grasp(
 
     Example: dmpcpp grasp --x 0.45 --y 0.1 --video grasp.mp4
     """
+    import numpy as np
+
     from dmpcpp import export
     from dmpcpp import grasp as task
     from dmpcpp.grasp import film, refuse_format
-    from dmpcpp.robot import arms
+    from dmpcpp.robot import Surroundings, arms, obstacles_of
 
     if video:
         refuse_format(video)
@@ -120,7 +133,9 @@ def grasp(
     if out:
         refuse_file(out)
     export.chosen(formats, panda)  # what cannot be written is refused before anything runs
-    planner = task.Planner(_reach(**recording), panda, follow=follow)
+    posts = task.clutter(clutter, bottle, np.random.default_rng([seed or 0, 1]))
+    around = Surroundings(obstacles=(*obstacles_of(obstacle), *posts), margin=obstacle_margin)
+    planner = task.Planner(_reach(**recording), panda, follow=follow, surroundings=around)
     with _progress(as_json) as progress:
         run = task.grasp(planner, bottle, progress("executing under physics"))
         if video:
@@ -211,6 +226,8 @@ def _print(run: Grasp, video: Path | None) -> None:
     place = f"x {bottle.x:.3f}, y {bottle.y:.3f}, z {bottle.height:.3f} m, yaw {math.degrees(bottle.yaw):.1f} deg"
     hand = f"{math.degrees(plan.pitch):.0f} deg down and passes it at {1e3 * plan.clearance:.1f} mm"
     console.print(f"bottle at {place}; the hand points {hand}", soft_wrap=True)
+    for note in plan.around.notes():
+        console.print(note, soft_wrap=True, markup=False)
     begins = ", ".join(f"{name} {time:.2f} s" for name, time in run.log.phases.items())
     console.print(f"{begins}; the reach takes {plan.slowdown:.2f} x the recorded duration", soft_wrap=True)
     console.print(_table(run))

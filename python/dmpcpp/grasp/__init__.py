@@ -15,7 +15,7 @@ from dmpcpp.grasp._film import film
 from dmpcpp.grasp._film import refuse_format as refuse_format
 from dmpcpp.grasp._planning import GraspPlan, Planner
 from dmpcpp.grasp._reach import default_reach, longest_reach
-from dmpcpp.grasp._task import Bottle, random_bottle
+from dmpcpp.grasp._task import Bottle, clutter, random_bottle
 from dmpcpp.grasp._timing import PHASES
 from dmpcpp.grasp._verdict import GraspTolerances, judge
 
@@ -29,6 +29,7 @@ __all__ = [
     "GraspTolerances",
     "Planner",
     "carry_out",
+    "clutter",
     "default_reach",
     "film",
     "grasp",

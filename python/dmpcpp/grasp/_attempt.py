@@ -67,6 +67,7 @@ class Grasp(Checked):
             "basis_count": self.plan.model.options.basis_count,
             "pitch": self.plan.pitch,
             "clearance": self.plan.clearance,
+            "obstacles": [obstacle.to_dict() for obstacle in self.plan.around.obstacles],
             "slowdown": self.plan.slowdown,
             "phases": self.log.phases,
             "leads": self.sent.to_dict(),

@@ -99,7 +99,8 @@ def carry_out(
     if not 100.0 <= rate <= 1e4:
         raise InvalidArgument(f"rate: {rate}, expected 100 to 10000 Hz.")
     reference = sample(arm, plan.joints, rate, settle=0.0, from_rest=True, consistent=True)
-    with GraspWorld(arm, 1.0 / rate, gripper, plan.bottle.cylinder, plan.bottle.place) as world:
+    stands = (arm, 1.0 / rate, gripper, plan.bottle.cylinder, plan.bottle.place)
+    with GraspWorld(*stands, obstacles=plan.around.obstacles) as world:
         run = _Run(world, gripper, arm, len(reference.time))
         run.go(reference, int(np.searchsorted(reference.time, plan.phases["close"])), progress)
     records = slice(0, run.records * _RECORD_EVERY, _RECORD_EVERY)

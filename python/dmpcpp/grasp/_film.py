@@ -88,7 +88,8 @@ def _frames(
     run: Grasp, gripper: ParallelGripper, records: list[int], progress: Callable[[float], None] | None
 ) -> Iterator[Frame]:
     log, bottle = run.log, run.plan.bottle
-    with GraspWorld(run.arm, 1e-3, gripper, bottle.cylinder, bottle.place, visuals=True) as world:
+    around = run.plan.around.obstacles
+    with GraspWorld(run.arm, 1e-3, gripper, bottle.cylinder, bottle.place, visuals=True, obstacles=around) as world:
         for done, k in enumerate(records, start=1):
             world.put(log.position[k], float(log.opening[k]), log.object_pose[k])
             yield world.image(_WIDTH, _HEIGHT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 
 import numpy as np
@@ -19,7 +19,7 @@ from dmpcpp.grasp._task import Bottle, hand_pose
 from dmpcpp.grasp._timing import timed_grasp
 from dmpcpp.learning import learn
 from dmpcpp.recordings import Recording
-from dmpcpp.robot import Follow, following
+from dmpcpp.robot import Follow, Surroundings, following
 from dmpcpp.simulation import PANDA_HAND, GraspWorld, ParallelGripper
 
 __all__ = ["GraspPlan", "Planner"]
@@ -63,6 +63,8 @@ class GraspPlan:
         Duration of the reach over that of the recorded one.
     position_error, angle_error : float
         m and rad, the largest of the inverse kinematics.
+    around : Surroundings
+        Its obstacles are what stands around the bottle.
     """
 
     bottle: Bottle
@@ -76,6 +78,7 @@ class GraspPlan:
     slowdown: float
     position_error: float
     angle_error: float
+    around: Surroundings = field(default_factory=Surroundings)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +101,8 @@ class Planner:
         At the arm's tip.
     follow : str, optional
         "pose", or "axis:x", "axis:y", "axis:z": the part of the hand's pose that the arm follows.
+    surroundings : Surroundings, optional
+        Its obstacles stand around the bottle: the arm keeps its margin from them.
 
     For several threads make several.
     """
@@ -109,10 +114,12 @@ class Planner:
         gripper: ParallelGripper = PANDA_HAND,
         *,
         follow: str | Follow | None = None,
+        surroundings: Surroundings | None = None,
     ) -> None:
         """Bring the reach to rest at both ends."""
         self.recording = resting(motion.continuous(recording))
         self.arm, self.gripper = arm, gripper
+        self.around = surroundings or Surroundings()
         followed = following(arm, follow)
         if followed.kind == "position":
             raise InvalidArgument(
@@ -140,7 +147,8 @@ class Planner:
         obstacles: Counter[str] = Counter()
         best: GraspPlan | None = None
         left = math.inf
-        with GraspWorld(self.arm, 1e-3, self.gripper, bottle.cylinder, bottle.believed_place) as world:
+        stands = (self.arm, 1e-3, self.gripper, bottle.cylinder, bottle.believed_place)
+        with GraspWorld(*stands, obstacles=self.around.obstacles) as world:
             for candidate in self._candidates(bottle, grips):
                 found = self._attempt(bottle, candidate, world)
                 if isinstance(found, str):
@@ -183,7 +191,7 @@ class Planner:
         report = joints.report
         if not report.complete:
             return "the arm cannot follow"
-        clearance = _clearance(world, joints.position)
+        clearance = _clearance(world, joints.position, self.around.margin)
         if isinstance(clearance, str):
             return clearance
         timed = timed_grasp(self.arm, *_parts(joints.position), _REST * candidate.model.duration)
@@ -192,7 +200,7 @@ class Planner:
         slowdown = timed.phases["approach"] / (_REST * candidate.model.duration)
         errors = float(np.max(report.position_error)), float(np.max(report.angle_error))
         plain = candidate.model, candidate.history, poses, timed.joints, timed.phases
-        return GraspPlan(bottle, *plain, candidate.pitch, clearance, slowdown, *errors)
+        return GraspPlan(bottle, *plain, candidate.pitch, clearance, slowdown, *errors, self.around)
 
     def _poses(self, bottle: Bottle, candidate: _Candidate) -> Array:
         """Of the tip: the model's reach to the new goal, straight on to the bottle, and straight up."""
@@ -239,7 +247,7 @@ def _line(start: Array, end: Array, count: int) -> Array:
     return poses
 
 
-def _clearance(world: GraspWorld, path: Array) -> float | str:
+def _clearance(world: GraspWorld, path: Array, margin: float) -> float | str:
     """Least distance of the arm to the bottle along joints (T, n) until they grip it, or what it would touch."""
     least = _CLEAR_REACH
     for k, position in enumerate(path):
@@ -247,6 +255,8 @@ def _clearance(world: GraspWorld, path: Array) -> float | str:
         touched = [each for each in world.contacts_at(position) if not (lifting and each.other == world.object_name)]
         if touched:
             return f"{touched[0].link} would touch {touched[0].other}"
+        if world.obstacles and (near := world.obstacle_clearance(margin))[0] < margin:
+            return f"{near[1]} would come within {1e3 * margin:g} mm of {near[2]}"
         if lifting:
             continue
         needed = _CLEAR_REACH if k < _REACH_POSES - 1 else _CLEAR_APPROACH

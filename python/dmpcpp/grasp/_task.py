@@ -6,11 +6,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dmpcpp._core import Box
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot import Obstacle
 from dmpcpp.simulation import Cylinder
 
-__all__ = ["Bottle", "hand_pose", "random_bottle"]
+__all__ = ["Bottle", "clutter", "hand_pose", "random_bottle"]
 
 _X, _Y, _YAW = (0.40, 0.60), (-0.25, 0.25), (-0.25, 0.25)  # m, m, rad
 _MISJUDGED = 0.004  # m
@@ -79,6 +81,21 @@ def random_bottle(random: np.random.Generator, cylinder: Cylinder | None = None)
     x, y, yaw = (float(random.uniform(*span)) for span in (_X, _Y, _YAW))
     dx, dy, dz = random.uniform(-_MISJUDGED, _MISJUDGED, 3).tolist()
     return Bottle(x, y, yaw, misjudged=(dx, dy, dz), cylinder=cylinder or Cylinder())
+
+
+def clutter(count: int, bottle: Bottle, random: np.random.Generator) -> tuple[Obstacle, ...]:
+    """Draw posts on the floor, 14 to 30 cm from a bottle and 30 cm or more from the robot, lower and higher than it."""
+    drawn: list[Obstacle] = []
+    while len(drawn) < count:
+        angle, far = float(random.uniform(-np.pi, np.pi)), float(random.uniform(0.14, 0.30))
+        x, y = bottle.x + far * np.cos(angle), bottle.y + far * np.sin(angle)
+        height = bottle.height + float(random.uniform(0.05, 0.25))
+        half = (*random.uniform(0.01, 0.03, 2), 0.5 * height)
+        pose = np.eye(4)
+        pose[:3, 3] = x, y, 0.5 * height
+        if np.hypot(x, y) >= 0.3:
+            drawn.append(Obstacle(f"clutter_{len(drawn) + 1}", Box(pose, half)))
+    return tuple(drawn)
 
 
 def hand_pose(point: Array, yaw: float, pitch: float, depth: float, turned: bool = False) -> Array:

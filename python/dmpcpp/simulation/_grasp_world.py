@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from dmpcpp._core import Arm
 from dmpcpp._typing import Array
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.robot import Obstacle
 from dmpcpp.simulation._bullet import Bullet
 from dmpcpp.simulation._objects import Cylinder, Friction, ParallelGripper
 
@@ -35,6 +37,8 @@ class GraspWorld(Bullet):
         of 0.15 m stands under it.
     visuals : bool
         Load what is only drawn as well.
+    obstacles : sequence of Obstacle
+        What stands around the bottle.
 
     Raises
     ------
@@ -53,9 +57,11 @@ class GraspWorld(Bullet):
         place: Array,
         *,
         visuals: bool = False,
+        obstacles: Sequence[Obstacle] = (),
     ) -> None:
         """Load arm, floor and cylinder."""
-        super().__init__(arm, time_step, visuals=visuals)
+        super().__init__(arm, time_step, visuals=visuals, obstacles=obstacles)
+        self._around = {body: name for body, name in self._others.items() if name in self.obstacles}
         self._gripper = gripper
         try:
             self._fingers = self._find_fingers()
@@ -122,6 +128,15 @@ class GraspWorld(Bullet):
         points = self._p.getClosestPoints(self._body, self._object, within, physicsClientId=self._client)
         nearest = min(points, key=lambda point: point[8], default=None)
         return (float(nearest[8]), self._link_names[nearest[3]]) if nearest else (within, "")
+
+    def obstacle_clearance(self, within: float) -> tuple[float, str, str]:
+        """Distance [m] to the closest obstacle, the link and the obstacle; ``within`` if none is that close."""
+        found = []
+        for body, name in self._around.items():
+            points = self._p.getClosestPoints(self._body, body, within, physicsClientId=self._client)
+            links = ((float(one[8]), self._link_names[one[3]]) for one in points if one[3] not in self._standing)
+            found += [(distance, link, name) for distance, link in links]
+        return min(found, default=(within, "", ""))
 
     # ---- setting up --------------------------------------------------------------------------------------
 
