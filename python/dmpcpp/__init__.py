@@ -1,12 +1,13 @@
 """Dynamic movement primitives: a person's motion, learned and carried out by a robot arm.
 
 The core (``Dmp``, ``OrientationDmp``, ``PoseDmp`` and their runs, ``so3``, model files) and the kinematics (``Arm``,
-``InverseKinematics``) are C++. Around them are modules, imported when they are used: ``recordings`` and ``inspection``
-(files), ``motion`` (cleaning, cutting, noise), ``learning``, ``arms`` and ``urdf_check`` (robots), ``retarget``
-(placement), ``planning``, ``simulation``, ``imitation`` (the whole flow), ``export``, ``verification`` (logs of real
-arms), ``variation`` (how takes differ), ``two_hands``, ``checks``, ``metrics``, ``comparison``, ``plot``, ``view``,
-``scene`` and ``report`` (pictures), ``batch``, ``generality`` and ``reproduction`` (many runs), ``grasp``,
-``examples`` (small recordings to try), ``doctor`` (the installation), and ``errors``.
+``InverseKinematics``) are C++. Around them are modules, imported when they are used: ``recordings`` and
+``inspection`` (files), ``motion`` (cleaning, cutting, noise), ``learning``, ``improvement`` (by trial), ``arms`` and
+``urdf_check`` (robots), ``retarget`` (placement), ``planning``, ``simulation``, ``imitation`` (the whole flow),
+``export``, ``verification`` (logs of real arms), ``variation`` (how takes differ), ``two_hands``, ``checks``,
+``metrics``, ``comparison``, ``plot``, ``view``, ``scene`` and ``report`` (pictures), ``batch``, ``generality`` and
+``reproduction`` (many runs), ``grasp``, ``examples`` (small recordings to try), ``doctor`` (the installation), and
+``errors``.
 Times are in s, lengths in m, angles in rad; arrays are float64.
 """
 
@@ -30,6 +31,7 @@ _MODULES = frozenset(
         "generality",
         "grasp",
         "imitation",
+        "improvement",
         "inspection",
         "learning",
         "metrics",

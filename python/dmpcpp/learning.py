@@ -1,4 +1,4 @@
-"""Learn recordings: noise estimate, fit, reproduction check."""
+"""Learn recordings: noise estimate, fit, reproduction check; improve what was learned by trial."""
 
 from __future__ import annotations
 
@@ -16,11 +16,23 @@ from dmpcpp._core import EndPeaks, FitReport, NoiseEstimate, NoiseKind, PoseDemo
 from dmpcpp._takes import takes_apart
 from dmpcpp.checks import Check, Checked
 from dmpcpp.errors import InvalidArgument
+from dmpcpp.improvement import Improvement, improve
 from dmpcpp.metrics import StageErrors
 from dmpcpp.motion import Noise
 from dmpcpp.recordings import Recording
 
-__all__ = ["Evidence", "Lesson", "evidence", "learn", "learnable", "reproduction", "reproduction_checks", "teach"]
+__all__ = [
+    "Evidence",
+    "Improvement",
+    "Lesson",
+    "evidence",
+    "improve",
+    "learn",
+    "learnable",
+    "reproduction",
+    "reproduction_checks",
+    "teach",
+]
 
 _LIMIT_POSITION, _LIMIT_ANGLE = 1e-3, math.radians(0.5)  # m, rad RMSE to the motion without its noise
 _LIMIT_SHARE = 0.5  # of the error that smoothing leaves, if that is more
