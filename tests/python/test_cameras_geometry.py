@@ -147,12 +147,24 @@ def test_one_camera_that_faces_the_palm_is_a_sketch_that_passes_its_gate():
         assert np.degrees(angle) < 13.0
 
 
+def quality_of(motion, world=WORLD, pixels=PIXELS):
+    view = seen(motion, CAMERA, pixels=pixels, world=world)
+    return cameras.fit_one_view(view, HAND_LENGTH / cameras.chain_length(view.world))[1]
+
+
 def test_a_view_whose_bones_change_length_is_refused_by_the_gate():
-    motion = seeded_motion(1, turn=20.0)
-    view = seen(motion, CAMERA, pixels=PIXELS, world=0.012)
-    _, quality = cameras.fit_one_view(view, HAND_LENGTH / cameras.chain_length(view.world))
+    quality = quality_of(seeded_motion(1, turn=20.0), world=0.025)
     assert not quality.ok
     assert quality.bones > quality.MOST_BONES
+
+
+def test_a_fist_and_a_hand_seen_edge_on_are_refused_by_the_gate_and_named():
+    motion = seeded_motion(1, turn=10.0)
+    assert quality_of(motion).ok
+    fist = replace(motion, bend=motion.bend + 1.0)
+    assert quality_of(fist).why == "the hand is a fist, whose landmarks are guessed"
+    edge = seeded_motion(1, turn=10.0, facing=85.0)
+    assert quality_of(edge).why == "the hand is seen edge on"
 
 
 def test_what_leaves_is_band_limited_even_and_where_it_was():

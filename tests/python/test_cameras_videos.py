@@ -105,7 +105,7 @@ def test_one_video_is_approximate_or_refused_with_what_to_do(hand):
     try:
         found = recordings.load(left, **STATED)
     except InvalidArgument as refused:
-        assert "Turn the palm to the camera, add a second camera" in str(refused)
+        assert "Turn the open palm to the camera, add a second camera" in str(refused)
         return
     assert found.approximate.startswith("approximate: one camera")
     assert errors_of(found, motion)[0] < 0.04

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from dmpcpp._typing import Array
+from dmpcpp.cameras._accuracy import accuracy_of_one
 from dmpcpp.cameras._fit import Fit, Motion, Sight, fit_motion
 from dmpcpp.cameras._landmarks import PALM, Landmarks
 from dmpcpp.cameras._palm import palm_frame, palm_shape
@@ -25,7 +26,7 @@ _BONES = ((0, 5), (0, 9), (0, 13), (0, 17), (5, 17))
 
 @dataclass(frozen=True)
 class Quality:
-    """Whether one view carries a motion.
+    """Whether one view carries a motion; the limits were chosen on 40 drawn views.
 
     Attributes
     ----------
@@ -34,18 +35,46 @@ class Quality:
         the median. A rigid hand that is seen well keeps them.
     reprojection : float
         Error of a constant palm under the fit, over the palm's length in the picture.
+    facing : float
+        How much the palm or the back of the hand faces the camera: cosine, median over the frames.
+    straight : float
+        How straight the middle finger is: its span over its length, median; a fist has 0.6.
+    error : float
+        Estimated error of the position [m rms].
     """
 
     bones: float
     reprojection: float
+    facing: float
+    straight: float
+    error: float
 
-    MOST_BONES = 0.06
-    MOST_REPROJECTION = 0.07
+    MOST_BONES = 0.13
+    MOST_REPROJECTION = 0.09
+    LEAST_FACING = 0.35
+    LEAST_STRAIGHT = 0.8
+    MOST_ERROR = 0.05
 
     @property
     def ok(self) -> bool:
         """Whether the view carries it."""
-        return self.bones <= self.MOST_BONES and self.reprojection <= self.MOST_REPROJECTION
+        return not self.why
+
+    @property
+    def why(self) -> str:
+        """What speaks against it; "" where nothing does."""
+        if self.straight < self.LEAST_STRAIGHT:
+            return "the hand is a fist, whose landmarks are guessed"
+        if self.facing < self.LEAST_FACING:
+            return "the hand is seen edge on"
+        if self.bones > self.MOST_BONES:
+            return f"its bones change by {100 * self.bones:.2g} %, limit {100 * self.MOST_BONES:g} %"
+        if self.reprojection > self.MOST_REPROJECTION:
+            limit = f"limit {100 * self.MOST_REPROJECTION:g} %"
+            return f"a rigid palm misses by {100 * self.reprojection:.2g} % of its size, {limit}"
+        if self.error > self.MOST_ERROR:
+            return f"its position is known to {1e3 * self.error:.2g} mm, limit {1e3 * self.MOST_ERROR:g} mm"
+        return ""
 
 
 def fit_one_view(view: Landmarks, scale: float) -> tuple[Motion, Quality]:
@@ -106,4 +135,18 @@ def _quality(view: Landmarks, motion: Motion, palm: Array) -> Quality:
     seen = view.camera.rays(view.pixels[:, list(PALM)])
     depth = np.maximum(points[..., 2:], 0.02)
     error = view.camera.focal * np.linalg.norm(points[..., :2] / depth - seen, axis=2)
-    return Quality(float(np.median(spreads)), float(np.sqrt(np.nanmean(error**2)) / view.palm_pixels))
+    axis = motion.position / np.linalg.norm(motion.position, axis=1, keepdims=True)
+    facing = abs(float(np.median(np.einsum("ti,ti->t", motion.rotation[:, :, 2], axis))))
+    return Quality(
+        float(np.median(spreads)),
+        float(np.sqrt(np.nanmean(error**2)) / view.palm_pixels),
+        facing,
+        _straightness(world),
+        accuracy_of_one(motion).position,
+    )
+
+
+def _straightness(world: Array) -> float:
+    finger = world[:, (9, 10, 11, 12)]
+    span = np.linalg.norm(finger[:, 3] - finger[:, 0], axis=1)
+    return float(np.median(span / np.linalg.norm(np.diff(finger, axis=1), axis=2).sum(axis=1)))

@@ -225,9 +225,7 @@ def _one(view: Landmarks, setup: HandSetup) -> Found:
     motion, quality = fit_one_view(view, setup.hand_length / chain_length(view.world))
     if not quality.ok:
         raise InvalidArgument(
-            "this camera does not see the hand well enough for one view (bones change by "
-            f"{100 * quality.bones:.2g} %, limit {100 * quality.MOST_BONES:g} %; a rigid palm misses by "
-            f"{100 * quality.reprojection:.2g} %, limit {100 * quality.MOST_REPROJECTION:g} %). Turn the palm to the "
+            f"this camera does not see the hand well enough for one view: {quality.why}. Turn the open palm to the "
             "camera, add a second camera, or put a printed tag on the hand (tag='0:60mm')."
         )
     accuracy = accuracy_of_one(motion)
