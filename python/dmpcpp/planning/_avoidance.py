@@ -241,7 +241,7 @@ class _Scene:
 
     def __init__(self, around: Surroundings, base: Array) -> None:
         self.margin = around.margin
-        turned = np.linalg.inv(base)
+        turned = np.asarray(np.linalg.inv(base), dtype=np.float64)
         self._all = [(one.name, _moved(one, turned)) for one in around.obstacles]
 
     def distances(self, places: Array) -> Array:

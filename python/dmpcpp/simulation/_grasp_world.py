@@ -61,7 +61,7 @@ class GraspWorld(Bullet):
     ) -> None:
         """Load arm, floor and cylinder."""
         super().__init__(arm, time_step, visuals=visuals, obstacles=obstacles)
-        self._around = {body: name for body, name in self._others.items() if name in self.obstacles}
+        self._posts = {body: name for body, name in self._others.items() if name in self.obstacles}
         self._gripper = gripper
         try:
             self._fingers = self._find_fingers()
@@ -132,7 +132,7 @@ class GraspWorld(Bullet):
     def obstacle_clearance(self, within: float) -> tuple[float, str, str]:
         """Distance [m] to the closest obstacle, the link and the obstacle; ``within`` if none is that close."""
         found = []
-        for body, name in self._around.items():
+        for body, name in self._posts.items():
             points = self._p.getClosestPoints(self._body, body, within, physicsClientId=self._client)
             links = ((float(one[8]), self._link_names[one[3]]) for one in points if one[3] not in self._standing)
             found += [(distance, link, name) for distance, link in links]

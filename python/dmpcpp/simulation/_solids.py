@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from dmpcpp import _core
@@ -51,7 +52,7 @@ def quaternion_of(pose: Array) -> list[float]:
     return [float(x), float(y), float(z), float(w)]
 
 
-def _at(place: object) -> Array:
+def _at(place: ArrayLike) -> Array:
     pose = np.eye(4)
     pose[:3, 3] = place
     return pose
