@@ -29,7 +29,7 @@ Vector3d HalfSpaces::clamped(const Vector3d& x) const noexcept {
 }
 
 Vector3d HalfSpaces::nearest(const Vector3d& wanted) const noexcept {
-  constexpr int kSweeps = 60;
+  constexpr int kSweeps = 200;
   Vector3d x = clamped(wanted);  // what cannot be reached would only take sweeps
   if (admits(x)) return x;
   Vector3d pull = Vector3d::Zero();         // of the intervals
