@@ -76,6 +76,8 @@ def measure() -> Iterator[Figure]:
             yield from distributions.planar(name, motions)
     yield from distributions.poses()
     yield from distributions.costs()
+    yield from distributions.grasp()
+    yield from distributions.trials()
     yield from via_poses()
     yield from times()
     yield from rhythm()

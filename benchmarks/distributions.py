@@ -1,4 +1,4 @@
-"""Distributions over several demonstrations, measured for `python -m benchmarks.adaptation`, beside other packages."""
+"""Distributions, two hands and improvement by trial, for `python -m benchmarks.adaptation`, beside other packages."""
 
 from __future__ import annotations
 
@@ -11,11 +11,14 @@ from typing import Any
 import numpy as np
 from dmpcpp import (
     Demonstration,
+    Dmp,
     DmpDistribution,
     Given,
     PoseDemonstration,
     PoseDistribution,
+    improvement,
     so3,
+    two_hands,
 )
 from numpy.typing import NDArray
 
@@ -210,6 +213,49 @@ def costs() -> Iterator[Figure]:
         "us",
         others,
     )
+
+
+def trials() -> Iterator[Figure]:
+    """Search past a place that the demonstration misses by 0.3, 8 seeds: trials to 0.08, cost after 600."""
+    times = np.linspace(0, 1, 101)
+    model = Dmp.fit(Demonstration(times, np.c_[times, 0.3 * np.sin(3 * times)]))
+    place = model.rollout_at(np.array([0.5])).position[0] + [0.0, 0.3]
+
+    def miss(motion: Any) -> float:
+        middle = int(np.argmin(np.abs(motion.time - 0.5)))
+        effort = 1e-5 * _rmse(motion.acceleration)
+        return float(np.linalg.norm(motion.position[middle] - place)) + effort
+
+    for search in ("via", "weights"):
+        best = [
+            np.minimum.accumulate(improvement.improve(model, miss, search=search, rollouts=601, seed=seed).costs)
+            for seed in range(8)
+        ]
+        count = [float(np.argmax(costs < 0.08)) if costs[-1] < 0.08 else np.inf for costs in best]
+        yield Figure(f"improvement by trial, {search}: trials to 0.08, median", float(np.median(count)), 25.0, "1")
+        last = float(np.median([costs[-1] for costs in best]))
+        yield Figure(f"improvement by trial, {search}: cost after 600, median", last, 0.01, "1")
+
+
+def grasp() -> Iterator[Figure]:
+    """Hold a thing with both hands: how far the grasp moves for new goals and tempi."""
+    times = np.linspace(0, 2, 150)
+    left = np.tile(np.eye(4), (len(times), 1, 1))
+    left[:, :3, :3] = [so3.exp([0.5 * t, 0.3 * np.sin(t), 0.8 * t]) for t in times]
+    left[:, :3, 3] = np.c_[0.3 * np.sin(times), 0.2 * times, 0.1 * np.cos(2 * times)]
+    grip = np.eye(4)
+    grip[:3, :3], grip[:3, 3] = so3.exp([0.2, 3.0, 0.1]), [0.05, 0.4, -0.02]
+    model = two_hands.TwoHands.fit(PoseDemonstration(times, left), PoseDemonstration(times, left @ grip))
+    goal = model.held.goal.copy()
+    goal[:3, 3] += [0.2, -0.1, 0.15]
+    far, turned = 0.0, 0.0
+    for duration in (0.7, 2.0, 5.0):
+        moved = model.rollout(goal, duration, 0.01)
+        for found in np.linalg.inv(moved.left) @ moved.right:
+            far = max(far, float(np.linalg.norm(found[:3, 3] - grip[:3, 3])))
+            turned = max(turned, float(np.degrees(so3.distance(found[:3, :3], grip[:3, :3]))))
+    yield Figure("two hands, new goal and tempi: the grasp off, position", far, 1e-9, "m")
+    yield Figure("two hands, new goal and tempi: the grasp off, angle", turned, 1e-9, "deg")
 
 
 def _seconds(call: Callable[[], Any], count: int) -> float:
