@@ -80,7 +80,7 @@ class DMP_EXPORT SafetyFilter {
   /// How far the robot may be from where it should be, m (0 or more): kept in addition to the margin.
   Status set_tracking_error(double error) noexcept DMP_REALTIME;
 
-  /// Least distance from the tool, where the last step ended, to an obstacle as it is now, m; infinite if none.
+  /// From the tool where the last step ended to the nearest obstacle as it is now, m; infinite if none.
   double clearance() const noexcept DMP_REALTIME;
   /// Whether the last step changed the motion.
   bool changed() const noexcept DMP_REALTIME;
