@@ -18,6 +18,7 @@ DATA = {  # what a file, a model or a class holds: no command passes such an arg
     "signal", "limit", "reference", "rounds", "speed", "max_residual", "candidates", "lead", "time_step", "mass_error",
     "quaternion", "measured",
     "payload_offset", "control_rate", "misjudged", "home", "half_width", "grasp_height", "bottle", "on", "kind",
+    "right", "cost", "decay", "search", "step", "rollouts",
 }  # fmt: skip
 
 

