@@ -40,8 +40,8 @@ def look(
 ) -> Seen:
     """Open a file or an address, and run scripts in it and take its picture again and again until it is as wanted.
 
-    `flags` are for Chromium. `media` is "screen" or "print". A page that is not as wanted after `patience` [s] is returned as it is. Skips
-    where there is no Chromium.
+    `flags` are for Chromium. `media` is "screen" or "print". A page that is not as wanted after `patience` [s] is
+    returned as it is. Skips where there is no Chromium.
     """
     connect = pytest.importorskip("websockets.sync.client").connect
     with _chromium(folder, size, flags) as address, connect(address, max_size=None) as socket:

@@ -55,7 +55,7 @@ def net_files() -> tuple[Path, Path]:
         if not path.is_file():
             raise MissingDependency(
                 f"the hand model is not there: two public networks find the hand in a video. Obtain them once: {GET} "
-                "(36 MB are downloaded, 8 MB kept). A printed tag works without: --tag ID:SIZE."
+                "(36 MB are downloaded, 8 MB kept). A printed tag works without: `dmpcpp imitate FILE --tag ID:SIZE`."
             )
         if _sum(path.read_bytes()) != _SUMS[path.name]:
             raise MissingDependency(f"{path}: is not the file that it should be. Obtain it anew: {GET}.")

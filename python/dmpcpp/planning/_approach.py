@@ -20,7 +20,7 @@ _FAR = 0.1  # m that a miss of 1 rad counts as; a pose that is missed by more co
 _TOO_LOW = 10.0  # per m
 _LONGER, _SHORTER = 1.5, 0.9  # of the next change, after one that helped and after one that did not: one in five helps
 _STEPS = (0.02, 2.0)
-_PATIENCE = 150  # changes in a row that help nothing, after which no further one is tried
+_PATIENCE = 400  # changes in a row that help nothing, after which no further one is tried
 
 
 def missed_by(solved: Any, poses: Array, floor: float) -> float:

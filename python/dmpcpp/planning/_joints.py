@@ -165,7 +165,10 @@ def solve(
     led_elsewhere = stand is not None or via or isinstance(model, Cycles)  # joints, poses or a rest that must be met
     if allowed is not None and not led_elsewhere and joints.report.complete:
         fit = fitted(arm, learned, joints, allowed, follow, accept, _TORQUE_SHARE)
-    slow = slowed(arm, fit.joints if fit else joints, engine, tempo=policy)
+    slow = slowed(arm, joints, engine, tempo=policy)
+    if fit:  # the largest demand is less, and most often the whole
+        faster = slowed(arm, fit.joints, engine, tempo=policy)
+        fit, slow = (fit, faster) if faster.factor < slow.factor else (None, slow)
     if policy != "uniform" or fit:
         again = retimed(learned, slow.tempo.pace)
     elif slow.factor > 1.0:
