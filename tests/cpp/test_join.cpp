@@ -243,6 +243,6 @@ TEST_CASE("files of sequences are refused by the place") {
   refuse("\"leave\": 1.0", "\"leave\": \"x\"", "parts[0].leave: expected a number");
   refuse("\"phase\": 0.5", "\"phase\": 5.5", "parts[1].via[0].phase: 5.5");
   refuse("\"kind\": \"dmp\"", "\"kind\": \"pose_dmp\"", "parts[0].model.kind: 'pose_dmp', expected dmp");
-  refuse("\"version\": 3", "\"version\": 4", "version: 4");
+  refuse("\"version\": 3", "\"version\": 5", "version: 5");
   refuse("\"parts\"", "\"ports\"", "'parts' is missing");
 }
