@@ -96,7 +96,7 @@ async function begin() {
     const others = devices.filter(d => d.kind === "videoinput" && d.deviceId !== own);
     view(0, first);
     if (settings.count > 1) {
-      if (!others.length) { state("one camera only was found: connect a second, or start dmpcpp record --cameras 1"); return; }
+      if (!others.length) { state("one camera only: connect a second, or start dmpcpp record --cameras 1"); return; }
       const wanted = {...size, deviceId: {exact: others[0].deviceId}};
       view(1, await navigator.mediaDevices.getUserMedia({video: wanted, audio: false}));
     }
