@@ -19,6 +19,11 @@ void run(const dmp::Sequence<Space>& models) {
   dmp::SequenceRun<Space>(models).step(1e-3 * models.duration());
 }
 
+template <class Space>
+void run(const dmp::Distribution<Space>& motions) {
+  motions.rollout(2);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
