@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -97,7 +96,7 @@ def run(
     and a released key slow it down along its path to a stop; a second Ctrl-C leaves the stop to the robot.
 
     With --goal-from the motion ends where the goal is last seen: the verdict is how near, within which limits. Contacts
-    on the way there are not looked at.
+    and torques on the way there are not judged.
 
     Example: dmpcpp run reach --speed 0.5
     """
@@ -129,7 +128,7 @@ def run(
             raise InvalidArgument(found.problems[0])
         if not (simulated or _may_move(go, countdown, yes)):
             return
-        moved = partial(online.execute, speed=speed) if online else running.execute
+        moved = online.execute if online else running.execute
         result = _moved(moved, robot, found, simulated or yes, countdown)
     finally:
         robot.close()

@@ -43,9 +43,7 @@ class OnlineRun:
             raise InvalidArgument(f"--goal-from: {path} holds a {type(model).__name__}, expected a PoseDmp.")
         return OnlineRun(model, running.goals_from(address), follow, tolerances)
 
-    def execute(
-        self, robot: Robot, found: Briefing, *, speed: float = 1.0, watch: Callable[[], bool] | None = None
-    ) -> Run:
+    def execute(self, robot: Robot, found: Briefing, *, watch: Callable[[], bool] | None = None) -> Run:
         """Move the robot: the approach, then the model."""
         from dmpcpp import running
 
@@ -84,6 +82,7 @@ class OnlineRun:
         if reached.missed:
             click.echo(f"{reached.missed} cycles off the pose: out of reach, or at a limit of the joints")
         print_checks(Console(), tuple(checks))
+        verdict = "verified" if ok else "not verified"
         near = f"{1e3 * reached.position:.3g} mm from the last goal"
-        click.echo(f"{'verified' if ok else 'not verified'}: the tip came to rest {near}; contacts were not looked at.")
+        click.echo(f"{verdict}: the tip came to rest {near}; contacts and torques were not judged.")
         return ok

@@ -20,6 +20,7 @@ __all__ = ["GoalSource", "goals_from"]
 _UDP = "udp://"
 _LOOPBACK = "127.0.0.1"
 _LARGEST = 65536  # bytes of a packet, and of a line that is not ended
+_FARTHEST = 1e3  # m, of a goal: no arm's base is that far away
 _UNIT = 1e-2  # how far the norm of a quaternion may be from 1
 
 
@@ -91,7 +92,7 @@ def _parsed(line: str, present: Array) -> tuple[float, Array | None]:
         numbers = np.array([float(part) for part in line.replace(",", " ").split()])
     except ValueError:
         return np.nan, None
-    if len(numbers) not in (4, 8) or not np.isfinite(numbers).all():
+    if len(numbers) not in (4, 8) or not np.isfinite(numbers).all() or np.abs(numbers[1:4]).max() > _FARTHEST:
         return np.nan, None
     pose = np.array(present)
     pose[:3, 3] = numbers[1:4]

@@ -25,7 +25,7 @@ _BEHIND = 200.0  # 1/rad: 5 mrad behind, the clock of the motion goes at half it
 _STOPPING = 0.2  # s in which the clock of the motion comes to a stop
 _STILL = 0.5  # s without a new goal after which a motion that has come to its end is over
 _REST = (1e-6, 1e-6, 1e-4)  # rad, rad/s and rad/s^2 below which the joints rest
-_ENDLESS = 120.0  # s after which a goal that keeps moving is followed no longer
+_ENDLESS = 120.0  # s beyond the motion after which a goal that keeps moving is left, and the arm stopped
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class OnlineMotion:
 
     Each cycle the run goes on by as much as the joints are not behind (phase stopping: Ijspeert et al., Neural
     Computation 25, 2013), the joints of its pose are tracked, and a cascade takes them through the limits of velocity,
-    acceleration and jerk. Contacts are not looked at.
+    acceleration and jerk. Contacts and torques are not looked at.
 
     Parameters
     ----------
@@ -127,8 +127,9 @@ class OnlineMotion:
             if found is not None:
                 self._keep(found.position, found.velocity, found.acceleration)
             return None if found is None else self._sample
-        if self._over or time > self.duration:
+        if self._over:
             return None
+        self._asked = self._asked or time > self.duration  # a goal that never rests ends in a stop, not at speed
         while self._time < time - self._begin + 0.5 * self._period:
             self._cycle()
         return self._sample
